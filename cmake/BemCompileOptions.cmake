@@ -1,0 +1,11 @@
+# One interface target with the options that every target of the project shares.
+add_library(bem_options INTERFACE)
+target_compile_options(bem_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                                             -Wno-unknown-pragmas)
+if(BEM_WARNINGS_AS_ERRORS)
+  target_compile_options(bem_options INTERFACE -Werror)
+endif()
+if(BEM_SANITIZE)
+  target_compile_options(bem_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_link_options(bem_options INTERFACE -fsanitize=address,undefined)
+endif()

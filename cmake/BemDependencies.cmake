@@ -1,0 +1,19 @@
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB REQUIRED)
+find_package(assimp REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
+pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
+pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+
+# BLIS in its single-threaded build: the project's own tiles supply the parallelism, so that
+# results do not depend on the number of threads (docs/performance.md compares the choices).
+find_library(BLIS_LIBRARY NAMES blis PATH_SUFFIXES blis-serial blis-pthread blis-openmp REQUIRED)
+find_path(BLIS_INCLUDE_DIR NAMES cblas.h PATH_SUFFIXES blis-serial blis-pthread blis-openmp REQUIRED)
+add_library(bem_blas INTERFACE)
+target_include_directories(bem_blas SYSTEM INTERFACE ${BLIS_INCLUDE_DIR})
+target_link_libraries(bem_blas INTERFACE ${BLIS_LIBRARY})
