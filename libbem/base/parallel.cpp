@@ -1,5 +1,7 @@
 #include "base/parallel.hpp"
 
+#include "base/error.hpp"
+
 #include <algorithm>
 #include <memory>
 #include <thread>
@@ -7,8 +9,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-
-#include "base/error.hpp"
 
 namespace bem {
 namespace {

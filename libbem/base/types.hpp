@@ -1,10 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <complex>
 #include <cstddef>
 #include <vector>
+
+#include <Eigen/Dense>
 
 namespace bem {
 

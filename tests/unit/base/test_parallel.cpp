@@ -1,9 +1,10 @@
-#include <atomic>
-#include <catch2/catch.hpp>
-#include <vector>
-
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+
+#include <atomic>
+#include <vector>
+
+#include <catch2/catch.hpp>
 
 TEST_CASE("every index is visited exactly once, whatever the number of threads") {
   for (int threads : {1, 2, 5}) {

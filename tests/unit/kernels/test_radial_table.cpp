@@ -1,0 +1,57 @@
+#include "kernels/bdf1_weights.hpp"
+#include "kernels/radial_table.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace bem;
+
+namespace {
+
+double worst_difference(const RadialTable& table, const Scheme& scheme, double lam_max) {
+  const RadialWeights direct(scheme, table.kappa(), table.layout().last_lag);
+  const int lanes = table.layout().count();
+  std::vector<double> exact(kRadialCount * lanes), value(kRadialCount * table.padded_lanes());
+  double worst = 0;
+  for (int i = 0; i <= 777; ++i) {
+    const double lam = lam_max * i / 777;
+    direct.evaluate(lam, exact.data());
+    table.evaluate(lam, value.data());
+    for (int f = 0; f < kRadialCount; ++f)
+      for (int lane = 0; lane < lanes; ++lane)
+        worst = std::max(
+            worst, std::abs(value[f * table.padded_lanes() + lane] - exact[f * lanes + lane]));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("tables interpolate every scheme to 1e-10 of the static kernel") {
+  for (const char* name : {"bdf1", "bdf2", "theta:0.75", "radau2"})
+    for (double nu : {0.0, 0.3, 0.5})
+      for (double lam : {0.3, 3.5, 14.5}) {
+        const Scheme scheme = Scheme::parse(name);
+        const double kappa = (1 - 2 * nu) / (2 * (1 - nu));
+        const RadialTable table(scheme, kappa, lam, default_history_length(scheme, lam));
+        INFO(name << ", nu " << nu << ", lam " << lam << ", intervals " << table.intervals());
+        CHECK(worst_difference(table, scheme, lam) < 2e-10);
+      }
+}
+
+TEST_CASE("the contour formula reproduces the closed form of BDF1") {
+  const double kappa = 0.2;
+  const int last = 20;
+  const ContourQuadrature contour(Scheme::multistep(0), last);
+  std::vector<double> lanes(kRadialCount * contour.layout().count());
+  for (double lam : {1e-6, 0.4, 3.0, 11.0}) {
+    const auto functions = [&](Complex d, Complex* value) {
+      const auto v = radial_values(d * lam, kappa);
+      std::copy(v.begin(), v.end(), value);
+    };
+    contour.weights(kRadialCount, functions, lanes.data());
+    const auto closed = bdf1_radial_weights(lam, kappa, last);
+    for (int f = 0; f < kRadialCount; ++f)
+      for (int k = 0; k <= last; ++k)
+        CHECK(std::abs(lanes[f * contour.layout().count() + k] - closed[k][f]) < 2e-13);
+  }
+}
