@@ -1,0 +1,25 @@
+#pragma once
+
+#include "mesh/triangle_mesh.hpp"
+
+#include <string>
+
+namespace bem {
+
+/// Reads the triangles of a mesh file; polygons are triangulated, everything but geometry is left
+/// out. The result is what the file says, unchecked: see make_surface.
+///
+/// OBJ files (by extension) go through a reader of our own in double precision that keeps the
+/// file's vertices and faces in their order. Every other format goes through assimp: single
+/// precision, node transforms applied, and vertices joined where the format (STL) repeats them in
+/// every triangle.
+///
+/// Throws ErrorCode::invalid_input if the file does not exist or cannot be understood (the message
+/// names the file, for OBJ also the line), ErrorCode::resources if it exists but must not be read.
+TriangleMesh read_mesh(const std::string& path);
+
+/// Writes an OBJ file, overwriting an existing one. Coordinates are the shortest decimals that read
+/// back to the same double. Throws ErrorCode::resources if the file cannot be written.
+void write_obj(const std::string& path, const TriangleMesh& mesh);
+
+}  // namespace bem

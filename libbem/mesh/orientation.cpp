@@ -1,0 +1,139 @@
+#include "mesh/orientation.hpp"
+
+#include "base/error.hpp"
+#include "mesh/adjacency.hpp"
+#include "mesh/describe.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bem {
+namespace {
+
+/// A component whose volume is below this part of area times size has none (rounding leaves 1e-16).
+constexpr double kZeroVolumeRatio = 1e-10;
+
+void measure(const TriangleMesh& nodes, Component& component) {
+  std::vector<Vec3> corners;
+  corners.reserve(3 * component.triangles.size());
+  for (int t : component.triangles)
+    for (int v : nodes.triangles[t]) corners.push_back(nodes.vertices[v]);
+  component.box = bounding_box(corners);
+  const Vec3 centre = component.box.centre();
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    const Vec3 a = corners[i] - centre, b = corners[i + 1] - centre, c = corners[i + 2] - centre;
+    component.volume += a.dot(b.cross(c)) / 6.0;
+    component.area += area_vector(a, b, c).norm();
+  }
+}
+
+bool contains(const BoundingBox& box, const Vec3& p) {
+  return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
+}
+
+/// Is `inner` within `outer`? One vertex decides, unless it lies on the other surface (parts that
+/// touch): then a few more are asked, and parts that only touch count as side by side.
+bool lies_within(const TriangleMesh& nodes, const Component& inner, const Component& outer) {
+  constexpr std::size_t kSamples = 16;
+  const std::size_t n = inner.triangles.size();
+  for (std::size_t s = 0; s < std::min(n, kSamples); ++s) {
+    const int t = inner.triangles[s * n / std::min(n, kSamples)];
+    const Vec3& p = nodes.vertices[nodes.triangles[t][0]];
+    if (!contains(outer.box, p)) return false;
+    const double turns = std::abs(winding_number(nodes, outer.triangles, p));
+    if (turns < 0.25) return false;
+    if (turns > 0.75) return true;
+  }
+  return false;
+}
+
+std::string first_triangle(const TriangleMesh& input, const Component& component) {
+  return triangle_text(input, component.triangles.front());
+}
+
+void refuse_flat(const TriangleMesh& input, const std::vector<Component>& components,
+                 const std::string& source) {
+  std::size_t count = 0;
+  const Component* first = nullptr;
+  for (const Component& c : components) {
+    if (std::abs(c.volume) > kZeroVolumeRatio * c.area * c.box.diagonal()) continue;
+    if (count++ == 0) first = &c;
+  }
+  if (count == 0) return;
+  throw Error(ErrorCode::invalid_input,
+              source + ": zero volume: the part with " + first_triangle(input, *first) +
+                  " (counting from 0) encloses nothing; " + count_text(count, "such part") +
+                  " in all; give the surface a thickness");
+}
+
+}  // namespace
+
+double winding_number(const TriangleMesh& mesh, const std::vector<int>& triangles,
+                      const Vec3& point) {
+  double half_angles = 0;
+  for (int t : triangles) {
+    const Triangle& corner = mesh.triangles[t];
+    const Vec3 a = mesh.vertices[corner[0]] - point;
+    const Vec3 b = mesh.vertices[corner[1]] - point;
+    const Vec3 c = mesh.vertices[corner[2]] - point;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    half_angles +=
+        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return half_angles / (2.0 * kPi);
+}
+
+std::vector<Component> surface_components(const TriangleMesh& nodes) {
+  const std::vector<int> twins = half_edge_twins(nodes.triangles);
+  std::vector<char> seen(nodes.triangles.size(), 0);
+  std::vector<Component> components;
+  for (std::size_t seed = 0; seed < seen.size(); ++seed) {
+    if (seen[seed]) continue;
+    Component component;
+    std::vector<int>& members = component.triangles;
+    members.push_back(static_cast<int>(seed));
+    seen[seed] = 1;
+    for (std::size_t next = 0; next < members.size(); ++next) {
+      for (int k = 0; k < 3; ++k) {
+        const int neighbour = twins[3 * members[next] + k] / 3;
+        if (seen[neighbour]) continue;
+        seen[neighbour] = 1;
+        members.push_back(neighbour);
+      }
+    }
+    std::sort(members.begin(), members.end());
+    measure(nodes, component);
+    components.push_back(std::move(component));
+  }
+  for (Component& inner : components)
+    for (const Component& outer : components)
+      if (&inner != &outer && lies_within(nodes, inner, outer)) ++inner.depth;
+  return components;
+}
+
+void orient_outward(const TriangleMesh& input, TriangleMesh& nodes, const std::string& source,
+                    std::vector<std::string>& warnings) {
+  const std::vector<Component> components = surface_components(nodes);
+  refuse_flat(input, components, source);
+  std::size_t flipped = 0, solids = 0;
+  const Component* first_flipped = nullptr;
+  const Component* second_solid = nullptr;
+  for (const Component& c : components) {
+    const bool solid = c.depth % 2 == 0;
+    if (solid && ++solids == 2) second_solid = &c;
+    if (solid == (c.volume > 0)) continue;
+    if (flipped++ == 0) first_flipped = &c;
+    for (int t : c.triangles) std::swap(nodes.triangles[t][1], nodes.triangles[t][2]);
+  }
+  if (flipped > 0)
+    warnings.push_back(source + ": the surface pointed inward and was turned outward: " +
+                       count_text(flipped, "part") + " of " + std::to_string(components.size()) +
+                       ", first the one with " + first_triangle(input, *first_flipped));
+  if (solids > 1)
+    warnings.push_back(source + ": " + std::to_string(solids) +
+                       " separate solids, the second begins at " +
+                       first_triangle(input, *second_solid) +
+                       ": no material connects them, make one body of each");
+}
+
+}  // namespace bem
