@@ -203,18 +203,22 @@ JsonValue JsonReader::required(const std::string& key) {
   throw object_.error("the required key \"" + key + "\" is missing");
 }
 
-std::string JsonReader::required_one_of(const std::string& a, const std::string& b) {
-  known_.insert(known_.end(), {a, b});
-  const auto first = child(a), second = child(b);
-  if (!first && !second) {
-    refuse_misspelt(a);
-    refuse_misspelt(b);
-    throw object_.error("one of the keys \"" + a + "\" and \"" + b + "\" is required");
+std::string JsonReader::required_one_of(const std::vector<std::string>& keys) {
+  known_.insert(known_.end(), keys.begin(), keys.end());
+  std::string given;
+  for (const std::string& key : keys) {
+    if (!child(key)) continue;
+    if (!given.empty()) refuse(key, "is not allowed beside \"" + given + "\"");
+    given = key;
   }
-  if (first && second)
-    throw error_at(object_.document_->key_location(std::max(*first, *second)),
-                   "only one of the keys \"" + a + "\" and \"" + b + "\" may be given");
-  return first ? a : b;
+  if (!given.empty()) return given;
+  for (const std::string& key : keys) refuse_misspelt(key);
+  throw object_.error("one of the keys " + join(keys) + " is required");
+}
+
+void JsonReader::refuse(const std::string& key, const std::string& reason) const {
+  if (const auto id = child(key))
+    throw error_at(object_.document_->key_location(*id), '"' + key + "\" " + reason);
 }
 
 Error JsonReader::unknown_key(std::uint32_t id, const std::string& nearest,

@@ -64,8 +64,11 @@ class JsonReader {
   /// The member `key`, if there is one.
   std::optional<JsonValue> optional(const std::string& key);
 
-  /// The one of two keys that is there. Throws if neither is there, or both are.
-  std::string required_one_of(const std::string& a, const std::string& b);
+  /// The one of `keys` that is there. Throws if none is there, or more than one.
+  std::string required_one_of(const std::vector<std::string>& keys);
+
+  /// Throws the error `"key" reason` if there is such a member.
+  void refuse(const std::string& key, const std::string& reason) const;
 
   /// Throws for the first member whose key was never asked for, with the nearest one that was.
   void finish() const;

@@ -1,8 +1,8 @@
 #include "scene/material_json.hpp"
 
-#include <cmath>
-
 #include "scene/json_reader.hpp"
+
+#include <cmath>
 
 namespace bem {
 namespace {
@@ -13,7 +13,7 @@ Material material_from(const JsonDocument& document) {
   material.name = reader.required("name").text();
   material.density = reader.required("density").positive();
   material.poisson_ratio = reader.required("poisson_ratio").number_in(0, 0.5);
-  const std::string modulus = reader.required_one_of("shear_modulus", "youngs_modulus");
+  const std::string modulus = reader.required_one_of({"shear_modulus", "youngs_modulus"});
   material.shear_modulus = reader.required(modulus).positive();
   if (modulus == "youngs_modulus") material.shear_modulus /= 2 * (1 + material.poisson_ratio);
   if (const auto dt = reader.optional("time_step")) material.time_step = dt->positive();

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "base/material.hpp"
+
+#include <string>
 
 namespace bem {
 

@@ -47,7 +47,7 @@ Mat3 interpolated_rotation(const AxisAngle& a, const AxisAngle& b, double s) {
 RigidMotion motion_at(const Motion& motion, double t) {
   if (motion.empty()) return {};
   if (t <= motion.front().time) return at_keyframe(motion.front());
-  if (t >= motion.back().time) return at_keyframe(motion.back());
+  if (!(t < motion.back().time)) return at_keyframe(motion.back());
   const std::size_t i = interval_of(motion, t);
   const Keyframe &a = motion[i], &b = motion[i + 1];
   const double s = (t - a.time) / (b.time - a.time);
@@ -58,7 +58,7 @@ RigidMotion motion_at(const Motion& motion, double t) {
 double profile_value(const Profile& profile, double t) {
   if (profile.empty()) return 1;
   if (t <= profile.front().time) return profile.front().factor;
-  if (t >= profile.back().time) return profile.back().factor;
+  if (!(t < profile.back().time)) return profile.back().factor;
   const std::size_t i = interval_of(profile, t);
   const ProfilePoint &a = profile[i], &b = profile[i + 1];
   return linear(a.factor, b.factor, (t - a.time) / (b.time - a.time));

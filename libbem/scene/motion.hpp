@@ -20,7 +20,8 @@ struct RigidMotion {
 /// Between two keyframes `translate` and `about` are linear in time, and the body turns at a
 /// constant rate. If both rotations have the same axis (or opposite ones, or one of the angles is
 /// 0), the angle is linear in time and may exceed a full turn. If the axes differ, the way from the
-/// first rotation R0 to the second R1 is the shortest: R(s) = exp(s log(R1 R0^T)) R0, s from 0 to 1.
+/// first rotation R0 to the second R1 is the shortest: R(s) = exp(s log(R1 R0^T)) R0, s from 0
+/// to 1.
 RigidMotion motion_at(const Motion& motion, double t);
 
 /// Rotation by the fraction `s` in [0, 1] of the way from `a` to `b`, as described for motion_at.

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "base/types.hpp"
+#include "scene/location.hpp"
+
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include "base/types.hpp"
-#include "scene/location.hpp"
 
 // A scene as it is written in its JSON file (docs/scene-format.md), with the defaults filled in.
 // SI units; angles are radians here and degrees in the file. What is called "mesh coordinates" is
@@ -35,9 +35,9 @@ struct Selection {
   enum class Kind { all, vertices, triangles, box };
 
   Kind kind = Kind::all;
-  std::vector<int> indices;    ///< 0-based, for vertices and triangles
-  Vec3 box_min, box_max;       ///< [m], mesh coordinates, min <= max
-  std::optional<Vec3> normal;  ///< unit vector, mesh coordinates, with Kind::box only
+  std::vector<int> indices;     ///< 0-based, for vertices and triangles
+  Vec3 box_min, box_max;        ///< [m], mesh coordinates, min <= max
+  std::optional<Vec3> normal;   ///< unit vector, mesh coordinates, with Kind::box only
   double normal_tolerance = 0;  ///< largest angle [rad] between it and a triangle's normal
   Location location;
 
@@ -92,9 +92,9 @@ enum class FrameMotion {
 struct BodySpec {
   std::string name;
   FilePath archive;
-  Vec3 position = Vec3::Zero();  ///< of the mesh's origin [m]
-  AxisAngle rotation;            ///< world = position + R * mesh coordinates
-  Vec3 velocity = Vec3::Zero();  ///< of the centre of mass [m/s]
+  Vec3 position = Vec3::Zero();          ///< of the mesh's origin [m]
+  AxisAngle rotation;                    ///< world = position + R * mesh coordinates
+  Vec3 velocity = Vec3::Zero();          ///< of the centre of mass [m/s]
   Vec3 angular_velocity = Vec3::Zero();  ///< about the centre of mass [rad/s]
   FrameMotion frame = FrameMotion::moving;
   bool gravity = true;
@@ -127,8 +127,8 @@ struct ObstacleSpec {
 
 /// One side of a joint.
 struct JointEnd {
-  std::size_t body = 0;        ///< index in Scene::bodies
-  Vec3 point = Vec3::Zero();   ///< initial world position [m]; point joints only
+  std::size_t body = 0;       ///< index in Scene::bodies
+  Vec3 point = Vec3::Zero();  ///< initial world position [m]; point joints only
   Location location;
 };
 
@@ -148,8 +148,8 @@ struct JointSpec {
 enum class FrictionCombine { max, min, average, multiply };
 
 struct ContactSpec {
-  bool enabled = false;  ///< true in a scene that has a "contact" without "enabled"
-  bool self = false;     ///< contact of a body with itself too
+  bool enabled = false;     ///< true in a scene that has a "contact" without "enabled"
+  bool self = false;        ///< contact of a body with itself too
   double tolerance = 1e-6;  ///< > 0 [m]
   FrictionCombine friction_combine = FrictionCombine::max;
   Location location;
@@ -159,16 +159,16 @@ enum class OutputFormat { obj, hdf5, vtp, pc2 };
 enum class OutputField { positions, tractions };
 
 struct OutputSpec {
-  std::vector<OutputFormat> formats = {OutputFormat::hdf5};  ///< each at most once, at least one
-  int every = 1;                                             ///< steps from frame to frame, >= 1
+  std::vector<OutputFormat> formats = {OutputFormat::hdf5};    ///< each at most once, at least one
+  int every = 1;                                               ///< steps from frame to frame, >= 1
   std::vector<OutputField> fields = {OutputField::positions};  ///< each at most once
   Location location;
 };
 
 struct Scene {
-  double time_step = 0;         ///< [s], > 0
-  double duration = 0;          ///< [s], >= 0
-  Vec3 gravity = Vec3::Zero();  ///< acceleration [m/s^2]
+  double time_step = 0;          ///< [s], > 0
+  double duration = 0;           ///< [s], >= 0
+  Vec3 gravity = Vec3::Zero();   ///< acceleration [m/s^2]
   std::vector<BodySpec> bodies;  ///< at least one; no two names of bodies and obstacles are equal
   std::vector<ObstacleSpec> obstacles;
   std::vector<JointSpec> joints;
