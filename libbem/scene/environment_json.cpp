@@ -1,0 +1,133 @@
+#include "scene/scene_parts.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace bem {
+namespace {
+
+PlaneObstacle read_plane(const JsonValue& value) {
+  JsonReader reader(value, "a plane");
+  PlaneObstacle plane;
+  plane.point = reader.required("point").vec3();
+  plane.normal = reader.required("normal").direction();
+  reader.finish();
+  return plane;
+}
+
+std::size_t body_named(const JsonValue& value, const std::vector<BodySpec>& bodies) {
+  const std::string name = value.text();
+  std::vector<std::string> names;
+  for (const BodySpec& body : bodies) names.push_back(body.name);
+  const auto match = std::find(names.begin(), names.end(), name);
+  if (match != names.end()) return static_cast<std::size_t>(match - names.begin());
+  const std::string nearest = nearest_name(name, names);
+  throw value.error("expected the name of a body of this scene, found " + in_quotes(name) +
+                    (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?"));
+}
+
+JointEnd read_joint_end(const JsonValue& value, JointType type,
+                        const std::vector<BodySpec>& bodies) {
+  JsonReader reader(value, "a side of a joint");
+  JointEnd end;
+  end.location = value.location();
+  end.body = body_named(reader.required("body"), bodies);
+  if (type == JointType::point)
+    end.point = reader.required("point").vec3();
+  else
+    reader.refuse("point", "is allowed only in joints of type \"point\"");
+  reader.finish();
+  return end;
+}
+
+/// An array of strings out of `names`, at least one and each at most once, as their indices.
+std::vector<std::size_t> read_choices(const JsonValue& value, const std::vector<std::string>& names,
+                                      const std::string& what) {
+  std::vector<std::size_t> chosen;
+  for (const JsonValue& item : value.items(1, what)) {
+    const std::size_t choice = item.choice(names);
+    if (std::find(chosen.begin(), chosen.end(), choice) != chosen.end())
+      throw item.error("the string " + in_quotes(names[choice]) + " is already in this array");
+    chosen.push_back(choice);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+ObstacleSpec read_obstacle(const JsonValue& value) {
+  JsonReader reader(value, "an obstacle");
+  ObstacleSpec obstacle;
+  obstacle.location = value.location();
+  obstacle.name = read_name(reader.required("name"));
+  if (reader.required_one_of({"plane", "mesh"}) == "plane") {
+    obstacle.shape = read_plane(reader.required("plane"));
+    for (const char* key : {"position", "motion"})
+      reader.refuse(key, "is allowed only beside \"mesh\"");
+  } else {
+    MeshObstacle mesh;
+    mesh.mesh = read_path(reader.required("mesh"));
+    if (const auto position = reader.optional("position")) mesh.position = position->vec3();
+    if (const auto motion = reader.optional("motion")) mesh.motion = read_motion(*motion);
+    obstacle.shape = mesh;
+  }
+  if (const auto friction = reader.optional("friction"))
+    obstacle.friction = friction->non_negative();
+  reader.finish();
+  return obstacle;
+}
+
+JointSpec read_joint(const JsonValue& value, const std::vector<BodySpec>& bodies) {
+  JsonReader reader(value, "a joint");
+  JointSpec joint;
+  joint.location = value.location();
+  joint.type = static_cast<JointType>(reader.required("type").choice({"point", "weld"}));
+  joint.a = read_joint_end(reader.required("a"), joint.type, bodies);
+  const JsonValue b = reader.required("b");
+  joint.b = read_joint_end(b, joint.type, bodies);
+  if (joint.a.body == joint.b.body)
+    throw JsonReader(b, "a side of a joint")
+        .required("body")
+        .error("expected another body than at the side \"a\" of the joint");
+  if (const auto tolerance = reader.optional("tolerance")) joint.tolerance = tolerance->positive();
+  reader.finish();
+  return joint;
+}
+
+ContactSpec read_contact(const JsonValue& value) {
+  JsonReader reader(value, "the contact settings");
+  ContactSpec contact;
+  contact.location = value.location();
+  contact.enabled = true;
+  if (const auto enabled = reader.optional("enabled")) contact.enabled = enabled->boolean();
+  if (const auto self = reader.optional("self")) contact.self = self->boolean();
+  if (const auto tolerance = reader.optional("tolerance"))
+    contact.tolerance = tolerance->positive();
+  if (const auto combine = reader.optional("friction_combine"))
+    contact.friction_combine =
+        static_cast<FrictionCombine>(combine->choice({"max", "min", "average", "multiply"}));
+  reader.finish();
+  return contact;
+}
+
+OutputSpec read_output(const JsonValue& value) {
+  JsonReader reader(value, "the output settings");
+  OutputSpec output;
+  output.location = value.location();
+  if (const auto formats = reader.optional("formats")) {
+    output.formats.clear();
+    for (std::size_t i : read_choices(*formats, {"obj", "hdf5", "vtp", "pc2"}, "array of formats"))
+      output.formats.push_back(static_cast<OutputFormat>(i));
+  }
+  if (const auto every = reader.optional("every"))
+    output.every = every->integer_in(1, std::numeric_limits<int>::max());
+  if (const auto fields = reader.optional("fields")) {
+    output.fields.clear();
+    for (std::size_t i : read_choices(*fields, {"positions", "tractions"}, "array of fields"))
+      output.fields.push_back(static_cast<OutputField>(i));
+  }
+  reader.finish();
+  return output;
+}
+
+}  // namespace bem

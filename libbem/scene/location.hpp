@@ -1,0 +1,31 @@
+#pragma once
+
+#include "base/error.hpp"
+
+#include <cstddef>
+#include <string>
+
+namespace bem {
+
+/// A place in an input file, for messages about what was written there.
+struct Location {
+  std::string file;
+  int line = 0;         ///< from 1; 0 if the place has no line
+  int column = 0;       ///< from 1, in characters (UTF-8 code points)
+  std::string pointer;  ///< JSON pointer (RFC 6901); empty for the whole document
+};
+
+/// `FILE:LINE:COLUMN: POINTER`, without the parts that `location` does not have.
+std::string where(const Location& location);
+
+/// The ErrorCode::invalid_input error with the message `FILE:LINE:COLUMN: POINTER: text`.
+Error error_at(const Location& location, const std::string& text);
+
+/// `text` fit for a terminal: control characters and bytes that are not UTF-8 are escaped, and
+/// what goes beyond `max_bytes` is replaced by "...".
+std::string printable(const std::string& text, std::size_t max_bytes = 200);
+
+/// printable(text) in double quotes, shortened to what a message can hold.
+std::string in_quotes(const std::string& text);
+
+}  // namespace bem

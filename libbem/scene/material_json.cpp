@@ -1,0 +1,37 @@
+#include "scene/material_json.hpp"
+
+#include "scene/json_reader.hpp"
+
+#include <cmath>
+
+namespace bem {
+namespace {
+
+Material material_from(const JsonDocument& document) {
+  JsonReader reader(JsonValue(document, 0), "a material");
+  Material material;
+  material.name = reader.required("name").text();
+  material.density = reader.required("density").positive();
+  material.poisson_ratio = reader.required("poisson_ratio").number_in(0, 0.5);
+  const std::string modulus = reader.required_one_of({"shear_modulus", "youngs_modulus"});
+  material.shear_modulus = reader.required(modulus).positive();
+  if (modulus == "youngs_modulus") material.shear_modulus /= 2 * (1 + material.poisson_ratio);
+  if (const auto dt = reader.optional("time_step")) material.time_step = dt->positive();
+  reader.finish();
+  if (!std::isnormal(material.shear_speed()))
+    throw error_at(reader.location(),
+                   "the speed of shear waves, sqrt(shear modulus / density), is out of range");
+  return material;
+}
+
+}  // namespace
+
+Material read_material(const std::string& path) {
+  return material_from(JsonDocument::read(path));
+}
+
+Material parse_material(const std::string& file, const std::string& text) {
+  return material_from(JsonDocument::parse(file, text));
+}
+
+}  // namespace bem

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "scene/json_reader.hpp"
+#include "scene/scene.hpp"
+
+#include <string>
+
+// The pieces of parse_scene(). Each reads one JSON value of the scene file and throws
+// ErrorCode::invalid_input for whatever is wrong with it.
+
+namespace bem {
+
+inline double radians(double degrees) {
+  return degrees * (kPi / 180);
+}
+
+/// A name of a body or obstacle: fit to be part of a file name and of an HDF5 path.
+std::string read_name(const JsonValue& value);
+
+/// A path, resolved against the folder of the document's file.
+FilePath read_path(const JsonValue& value);
+
+/// {"axis": [x, y, z], "angle_deg": a}
+AxisAngle read_rotation(const JsonValue& value);
+
+/// "all", {"vertices": [...]}, {"triangles": [...]} or {"box": ...} with an optional normal.
+Selection read_selection(const JsonValue& value);
+
+/// Keyframes with increasing times; "about" is inherited from the keyframe before.
+Motion read_motion(const JsonValue& value);
+
+/// [[time, factor], ...] with increasing times.
+Profile read_profile(const JsonValue& value);
+
+BodySpec read_body(const JsonValue& value);
+ObstacleSpec read_obstacle(const JsonValue& value);
+JointSpec read_joint(const JsonValue& value, const std::vector<BodySpec>& bodies);
+ContactSpec read_contact(const JsonValue& value);
+OutputSpec read_output(const JsonValue& value);
+
+}  // namespace bem
