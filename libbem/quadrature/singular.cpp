@@ -69,32 +69,45 @@ void VertexTriangle::polar_points(int angular, int radial, std::vector<Point>& p
   }
 }
 
-PolarOrder polar_order(double tolerance, double angle, double oscillation) {
-  // measured numbers of points for 1e-4, 1e-6, 1e-8, 1e-12; linear in log(tolerance) between
-  static constexpr double kLog[4] = {-4, -6, -8, -12};
-  static constexpr double kAngles[4] = {60, 90, 120, 165};
-  static constexpr double kAngular[4][4] = {
-      {4, 5, 7, 9}, {5, 7, 9, 12}, {6, 9, 11, 16}, {11, 15, 20, 28}};
-  static constexpr double kZ[3] = {0.5, 4.2, 8};
-  static constexpr double kRadial[3][4] = {{4, 4, 5, 5}, {5, 6, 7, 10}, {6, 7, 8, 10}};
-  const double log_tolerance = std::clamp(std::log10(tolerance), kLog[3], kLog[0]);
+namespace {
+
+constexpr int kTolerances = 4;
+constexpr double kLogTolerance[kTolerances] = {-4, -6, -8, -12};
+
+// Measured numbers of points for the tolerances above  [docs/method.md, "Singular triangles"].
+constexpr double kAngles[4] = {60, 90, 120, 165};
+constexpr double kAngular[4][kTolerances] = {
+    {4, 5, 7, 9}, {5, 7, 9, 12}, {6, 9, 11, 16}, {11, 15, 20, 28}};
+constexpr double kOscillations[3] = {0.5, 4.2, 8};
+constexpr double kRadial[3][kTolerances] = {{4, 4, 5, 5}, {5, 6, 7, 10}, {6, 7, 8, 10}};
+
+/// Bilinear interpolation in (x, log tolerance); goes on linearly beyond the last x.
+template <std::size_t n>
+int interpolate_order(const double (&grid)[n], const double (&rows)[n][kTolerances], double x,
+                      double log_tolerance) {
   int column = 0;
-  while (column < 2 && log_tolerance < kLog[column + 1]) ++column;
-  const double f = (kLog[column] - log_tolerance) / (kLog[column] - kLog[column + 1]);
+  while (column < kTolerances - 2 && log_tolerance < kLogTolerance[column + 1]) ++column;
+  const double f =
+      (kLogTolerance[column] - log_tolerance) / (kLogTolerance[column] - kLogTolerance[column + 1]);
+  std::size_t i = 0;
+  for (std::size_t next = 1; next + 1 < n; ++next)
+    if (x > grid[next]) i = next;
+  const double g = std::max(0.0, (x - grid[i]) / (grid[i + 1] - grid[i]));
   const auto at = [&](const double* row) {
     return row[column] + f * (row[column + 1] - row[column]);
   };
-  const auto along = [&](const double* grid, const auto& rows, int count, double x) {
-    int i = 0;
-    while (i < count - 2 && x > grid[i + 1]) ++i;
-    // beyond the last entry the numbers go on growing with the last slope
-    const double g = std::max(0.0, (x - grid[i]) / (grid[i + 1] - grid[i]));
-    return at(rows[i]) + g * (at(rows[i + 1]) - at(rows[i]));
-  };
-  const double angular = along(kAngles, kAngular, 4, angle * 180 / kPi);
-  const double radial = along(kZ, kRadial, 3, oscillation);
-  return {std::min(60, static_cast<int>(std::ceil(angular))),
-          std::min(60, static_cast<int>(std::ceil(radial)))};
+  const double order = at(rows[i]) + g * (at(rows[i + 1]) - at(rows[i]));
+  constexpr int kMostPoints = 60;
+  return std::min(kMostPoints, static_cast<int>(std::ceil(order)));
+}
+
+}  // namespace
+
+PolarOrder polar_order(double tolerance, double angle, double oscillation) {
+  const double log_tolerance =
+      std::clamp(std::log10(tolerance), kLogTolerance[kTolerances - 1], kLogTolerance[0]);
+  return {interpolate_order(kAngles, kAngular, angle * 180 / kPi, log_tolerance),
+          interpolate_order(kOscillations, kRadial, oscillation, log_tolerance)};
 }
 
 }  // namespace bem

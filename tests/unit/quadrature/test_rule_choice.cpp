@@ -1,0 +1,33 @@
+#include "quadrature/rule_choice.hpp"
+
+#include <catch2/catch.hpp>
+
+using bem::RuleChoice;
+
+TEST_CASE("rules are chosen by distance as measured") {
+  // 1e-6: 6 points beyond 7.5 diameters, 7 beyond 4.8, 12 beyond 2.3, 16 beyond 1.5, split below
+  // 0.75
+  const RuleChoice choice(1e-6);
+  CHECK(choice.smallest_ratio(2) == Approx(7.5).epsilon(0.1));
+  CHECK(choice.smallest_ratio(3) == Approx(4.8).epsilon(0.1));
+  CHECK(choice.smallest_ratio(4) == Approx(2.3).epsilon(0.1));
+  CHECK(choice.smallest_ratio(7) == Approx(0.75).epsilon(0.1));
+  CHECK(choice.choose(0.5, 0) == -1);
+  CHECK(choice.choose(1.0, 0) == 6);
+  CHECK(choice.choose(30.0, 0) == 2);
+}
+
+TEST_CASE("tighter tolerances and oscillation never choose a smaller rule") {
+  for (double ratio : {0.3, 0.6, 1.0, 3.0, 10.0, 40.0})
+    for (double z : {0.0, 2.0, 5.0, 9.0}) {
+      int last = 0;
+      for (double tolerance : {1e-3, 1e-5, 1e-7, 1e-9}) {
+        int rule = RuleChoice(tolerance).choose(ratio, z);
+        if (rule < 0) rule = bem::kTriangleRuleCount;
+        CHECK(rule >= last);
+        last = rule;
+      }
+    }
+  CHECK(RuleChoice(1e-6).choose(30, 8) > RuleChoice(1e-6).choose(30, 0));
+  CHECK(RuleChoice(1e-8).choose(30, 100) == -1);
+}
