@@ -64,17 +64,24 @@ RadialTable::RadialTable(const Scheme& scheme, double kappa, double lam_max, int
     : layout_(scheme, last_lag), kappa_(kappa) {
   require(lam_max > 0, "the table covers a positive range");
   padded_lanes_ = (layout_.count() + kLanePadding - 1) / kLanePadding * kLanePadding;
-  int lane = 0;
-  for (const InitialComponent& c : scheme.initial_components()) {
-    static_lanes_.push_back(lane);
-    lane += c.paired ? 2 : 1;
-  }
+  set_static_parts(scheme);
   constexpr int kMostRefinements = 6;
   intervals_ = std::max(1, static_cast<int>(std::ceil(2 * lam_max)));
   for (int refinement = 0;; ++refinement, intervals_ *= 2) {
     build(scheme, lam_max);
     if (interpolation_error(scheme, lam_max) <= tolerance) return;
     require(refinement < kMostRefinements, "the radial table reaches its tolerance");
+  }
+}
+
+void RadialTable::set_static_parts(const Scheme& scheme) {
+  static_parts_.assign(static_cast<std::size_t>(kRadialCount) * padded_lanes_, 0.0);
+  const RadialValues<double> rest = static_radial_values(kappa_);
+  int lane = 0;
+  for (const InitialComponent& c : scheme.initial_components()) {
+    static_lanes_.push_back(lane);
+    for (int f : {kRadialP, kRadialQ, kRadialS}) static_parts_[f * padded_lanes_ + lane] = rest[f];
+    lane += c.paired ? 2 : 1;
   }
 }
 

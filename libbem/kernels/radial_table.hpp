@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/aligned.hpp"
 #include "kernels/contour.hpp"
 #include "kernels/radial_functions.hpp"
 
@@ -37,11 +38,17 @@ class RadialTable {
   /// Interpolated values out[function*padded_lanes() + lane].
   void evaluate(double lam, double* out) const;
 
-  /// Lanes of lag 0 that hold real parts; the static parts of P, Q, S live there.
+  /// Static part of P, Q or S by padded lane (in the real lanes of lag 0; zero for other
+  /// functions): what the singular integrals treat analytically.
+  const double* static_part(int function) const {
+    return static_parts_.data() + static_cast<std::size_t>(function) * padded_lanes_;
+  }
+  /// Lanes of lag 0 that hold real parts.
   const std::vector<int>& static_lanes() const { return static_lanes_; }
 
  private:
   void build(const Scheme& scheme, double lam_max);
+  void set_static_parts(const Scheme& scheme);
   double interpolation_error(const Scheme& scheme, double lam_max) const;
 
   LaneLayout layout_;
@@ -49,7 +56,7 @@ class RadialTable {
   int padded_lanes_;
   int intervals_ = 0;
   double intervals_per_lam_ = 0;
-  std::vector<double> coefficients_;
+  AlignedVector coefficients_, static_parts_;
   std::vector<int> static_lanes_;
 };
 

@@ -1,0 +1,283 @@
+// Compiled once per instruction set and dispatched at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assembly/panel_sums.cpp"
+#include "assembly/panel_sums.hpp"
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace bem {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kCapacity = PointBatch::kCapacity;
+
+// Rows of PanelScratch::coefficient.
+enum : int {
+  kCoefA = 0,
+  kCoefB = kCoefA + 3,
+  kCoefPQ = kCoefB + 18,
+  kCoefS = kCoefPQ + 9,
+  kCoefF = kCoefS + 18,
+  kCoefFr = kCoefF + 3,
+  kCoefM1 = kCoefFr + 6,
+  kCoefM0 = kCoefM1 + 1,
+};
+static_assert(kCoefM0 + 1 == PanelScratch::kCoefficients);
+
+/// Tensor coefficients of all points, lanes over points; also finds the table intervals.
+void Coefficients(const RadialTable& table, const KernelScales& scales, const PointBatch& batch,
+                  const Vec3& normal, PanelScratch& scratch) {
+  const hn::CappedTag<double, PointBatch::kPadding> d;
+  using V = hn::Vec<decltype(d)>;
+  const V nx = hn::Set(d, normal[0]), ny = hn::Set(d, normal[1]), nz = hn::Set(d, normal[2]);
+  const V per_distance = hn::Set(d, scales.lam_per_distance * table.intervals_per_lam());
+  const V last = hn::Set(d, table.intervals() - 1.0);
+  const V one = hn::Set(d, 1.0);
+  alignas(64) double intervals[kCapacity];
+  for (int q = 0; q < batch.padded_size(); q += static_cast<int>(hn::Lanes(d))) {
+    const V x = hn::LoadU(d, batch.r[0] + q), y = hn::LoadU(d, batch.r[1] + q),
+            z = hn::LoadU(d, batch.r[2] + q);
+    const V r = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
+    const V inverse = hn::Div(one, r);
+    const V h[3] = {hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse)};
+    const V hh[6] = {hn::Mul(h[0], h[0]), hn::Mul(h[0], h[1]), hn::Mul(h[0], h[2]),
+                     hn::Mul(h[1], h[1]), hn::Mul(h[1], h[2]), hn::Mul(h[2], h[2])};
+    const V hn_ = hn::MulAdd(h[0], nx, hn::MulAdd(h[1], ny, hn::Mul(h[2], nz)));
+
+    const V position = hn::Mul(r, per_distance);
+    const V interval = hn::Min(hn::Floor(position), last);
+    const V offset = hn::Sub(position, interval);
+    hn::Store(hn::Sub(hn::Add(offset, offset), one), d, scratch.local + q);
+    hn::Store(interval, d, intervals + q);
+
+    const auto store = [&](int row, V value) { hn::Store(value, d, scratch.coefficient[row] + q); };
+    V weight = hn::Zero(d);
+    const V u_scale = hn::Mul(hn::Set(d, scales.displacement), inverse);
+    const V p_scale = hn::Mul(hn::Set(d, scales.traction), hn::Mul(inverse, inverse));
+    for (int a = 0; a < 3; ++a) {
+      const V w = hn::LoadU(d, batch.shape_weight[a] + q);
+      weight = hn::Add(weight, w);
+      const V u = hn::Mul(w, u_scale);
+      const V p = hn::Mul(w, p_scale);
+      const V s = hn::Mul(p, hn_);
+      store(kCoefA + a, u);
+      for (int e = 0; e < 6; ++e) {
+        store(kCoefB + 6 * a + e, hn::Neg(hn::Mul(u, hh[e])));
+        store(kCoefS + 6 * a + e, hn::Mul(s, hh[e]));
+      }
+      for (int e = 0; e < 3; ++e) store(kCoefPQ + 3 * a + e, hn::Mul(p, h[e]));
+    }
+    const V body = hn::Mul(weight, hn::Set(d, scales.body_force));
+    const V body_r = hn::Mul(body, r);
+    for (int e = 0; e < 3; ++e) store(kCoefF + e, hn::Mul(body, h[e]));
+    for (int e = 0; e < 6; ++e) store(kCoefFr + e, hn::Mul(body_r, hh[e]));
+    store(kCoefM1, hn::Neg(hn::Mul(body, hn_)));
+    store(kCoefM0, body_r);
+  }
+  for (int q = 0; q < batch.size; ++q)
+    scratch.interval[q] = table.coefficients(static_cast<int>(intervals[q]));
+}
+
+/// sums[i] += coefficient[i][q] * values[q] over the points, n rows held in registers.
+template <int n, class D>
+HWY_INLINE void AccumulateRows(D d, const double (*coefficient)[kCapacity], int size,
+                               const double* HWY_RESTRICT values, double* HWY_RESTRICT sums,
+                               std::size_t stride) {
+  using V = hn::Vec<D>;
+  V sum[n];
+#pragma GCC unroll 16
+  for (int i = 0; i < n; ++i) sum[i] = hn::Load(d, sums + i * stride);
+  for (int q = 0; q < size; ++q) {
+    const V value = hn::Load(d, values + q * hn::Lanes(d));
+#pragma GCC unroll 16
+    for (int i = 0; i < n; ++i) sum[i] = hn::MulAdd(hn::Set(d, coefficient[i][q]), value, sum[i]);
+  }
+#pragma GCC unroll 16
+  for (int i = 0; i < n; ++i) hn::Store(sum[i], d, sums + i * stride);
+}
+
+template <class D>
+HWY_INLINE void Accumulate(D d, const PanelScratch& s, int function, int size,
+                           const double* HWY_RESTRICT values, double* HWY_RESTRICT sums,
+                           std::size_t stride) {
+  const auto rows = [&](auto count, int coefficient, int sum) {
+    AccumulateRows<decltype(count)::value>(d, s.coefficient + coefficient, size, values,
+                                           sums + sum * stride, stride);
+  };
+  using One = std::integral_constant<int, 1>;
+  using Three = std::integral_constant<int, 3>;
+  using Nine = std::integral_constant<int, 9>;
+  switch (function) {
+    case kRadialA:
+      return rows(Three(), kCoefA, kSumA);
+    case kRadialB:
+      rows(Nine(), kCoefB, kSumB);
+      return rows(Nine(), kCoefB + 9, kSumB + 9);
+    case kRadialP:
+      return rows(Nine(), kCoefPQ, kSumP);
+    case kRadialQ:
+      return rows(Nine(), kCoefPQ, kSumQ);
+    case kRadialS:
+      rows(Nine(), kCoefS, kSumS);
+      return rows(Nine(), kCoefS + 9, kSumS + 9);
+    case kRadialF:
+      return rows(Nine(), kCoefF, kSumF);
+    case kRadialM1:
+      return rows(One(), kCoefM1, kSumM1);
+    default:
+      return rows(One(), kCoefM0, kSumM0);
+  }
+}
+
+void AccumulatePanel(const RadialTable& table, const KernelScales& scales, const PointBatch& batch,
+                     const Vec3& normal, PanelScratch& scratch, double* HWY_RESTRICT sums) {
+  constexpr int kNodes = RadialTable::kNodes;
+  const hn::CappedTag<double, RadialTable::kLanePadding> d;
+  using V = hn::Vec<decltype(d)>;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const std::size_t stride = table.padded_lanes();
+  Coefficients(table, scales, batch, normal, scratch);
+  alignas(64) double values[kCapacity * RadialTable::kLanePadding];
+  for (int f = 0; f < kRadialCount; ++f) {
+    for (std::size_t lane = 0; lane < stride; lane += lanes) {
+      const V rest = batch.singular ? hn::Load(d, table.static_part(f) + lane) : hn::Zero(d);
+      for (int q = 0; q < batch.size; ++q) {
+        const double* HWY_RESTRICT c = scratch.interval[q] + f * kNodes * stride + lane;
+        const V t = hn::Set(d, scratch.local[q]);
+        V value = hn::Load(d, c + (kNodes - 1) * stride);
+#pragma GCC unroll 8
+        for (int degree = kNodes - 2; degree >= 0; --degree)
+          value = hn::MulAdd(value, t, hn::Load(d, c + degree * stride));
+        hn::Store(hn::Sub(value, rest), d, values + q * lanes);
+      }
+      Accumulate(d, scratch, f, batch.size, values, sums + lane, stride);
+    }
+  }
+}
+
+void AddPanel(const double* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
+              const PanelTarget& target) {
+  const hn::CappedTag<double, RadialTable::kLanePadding> d;
+  using V = hn::Vec<decltype(d)>;
+  const std::size_t stride = padded_lanes;
+  const V normal[3] = {hn::Set(d, n[0]), hn::Set(d, n[1]), hn::Set(d, n[2])};
+  constexpr int kPair[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
+    const auto sum = [&](int row) { return hn::Load(d, sums + row * stride + lane); };
+    const auto add = [&](double* block, int entry, V value) {
+      double* HWY_RESTRICT at = block + entry * stride + lane;
+      hn::Store(hn::Add(hn::Load(d, at), value), d, at);
+    };
+    for (int a = 0; a < 3; ++a) {
+      const V trace = sum(kSumA + a);
+      for (int e = 0; e < 6; ++e) {
+        const V b = sum(kSumB + 6 * a + e);
+        add(target.g[a], e, e == 0 || e == 3 || e == 5 ? hn::Add(b, trace) : b);
+      }
+      V p[3], q[3];
+      for (int i = 0; i < 3; ++i) {
+        p[i] = sum(kSumP + 3 * a + i);
+        q[i] = sum(kSumQ + 3 * a + i);
+      }
+      const V pn =
+          hn::MulAdd(p[0], normal[0], hn::MulAdd(p[1], normal[1], hn::Mul(p[2], normal[2])));
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+          V value = sum(kSumS + 6 * a + kPair[i][j]);
+          value = hn::MulAdd(normal[i], p[j], value);
+          value = hn::MulAdd(q[i], normal[j], value);
+          add(target.h[a], 3 * i + j, i == j ? hn::Add(value, pn) : value);
+        }
+    }
+    // d = F n^T - M_1 (h.n),  l = (Fr + M_0) N with N = [n]_x
+    const V zero = hn::Zero(d);
+    const V cross[3][3] = {{zero, hn::Neg(normal[2]), normal[1]},
+                           {normal[2], zero, hn::Neg(normal[0])},
+                           {hn::Neg(normal[1]), normal[0], zero}};
+    const V m1 = sum(kSumM1), m0 = sum(kSumM0);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        V value = hn::Mul(sum(kSumF + i), normal[j]);
+        if (i == j) value = hn::Add(value, m1);
+        add(target.d, 3 * i + j, value);
+        V rotation = hn::Mul(m0, cross[i][j]);
+        for (int k = 0; k < 3; ++k)
+          rotation = hn::MulAdd(sum(kSumFr + kPair[i][k]), cross[k][j], rotation);
+        add(target.l, 3 * i + j, rotation);
+      }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bem
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bem {
+
+HWY_EXPORT(AccumulatePanel);
+HWY_EXPORT(AddPanel);
+
+KernelScales::KernelScales(double shear_modulus, double shear_speed, double dt)
+    : displacement(1 / (4 * kPi * shear_modulus)),
+      traction(1 / (4 * kPi)),
+      body_force(1 / (4 * kPi * shear_speed * shear_speed)),
+      lam_per_distance(1 / (shear_speed * dt)) {}
+
+void accumulate_panel(const RadialTable& table, const KernelScales& scales, const PointBatch& batch,
+                      const Vec3& normal, PanelScratch& scratch, double* sums) {
+  HWY_DYNAMIC_DISPATCH(AccumulatePanel)(table, scales, batch, normal, scratch, sums);
+}
+
+void add_panel(const double* sums, const Vec3& normal, int padded_lanes,
+               const PanelTarget& target) {
+  HWY_DYNAMIC_DISPATCH(AddPanel)(sums, normal, padded_lanes, target);
+}
+
+void accumulate_panel_reference(const RadialTable& table, const KernelScales& scales,
+                                const PointBatch& batch, const Vec3& normal, double* sums) {
+  constexpr int kPairs[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
+  const int stride = table.padded_lanes();
+  std::vector<double> values(static_cast<std::size_t>(kRadialCount) * stride);
+  for (int q = 0; q < batch.size; ++q) {
+    const Vec3 y(batch.r[0][q], batch.r[1][q], batch.r[2][q]);
+    const double r = y.norm();
+    const Vec3 h = y / r;
+    const double hn = h.dot(normal);
+    table.evaluate(r * scales.lam_per_distance, values.data());
+    for (int lane = 0; lane < stride; ++lane) {
+      const auto f = [&](int function) {
+        const double rest = batch.singular ? table.static_part(function)[lane] : 0;
+        return values[function * stride + lane] - rest;
+      };
+      const auto add = [&](int sum, double value) { sums[sum * stride + lane] += value; };
+      double weight = 0;
+      for (int a = 0; a < 3; ++a) {
+        const double w = batch.shape_weight[a][q];
+        weight += w;
+        const double u = w * scales.displacement / r, p = w * scales.traction / (r * r);
+        add(kSumA + a, u * f(kRadialA));
+        for (int e = 0; e < 6; ++e) {
+          const double hh = h[kPairs[e][0]] * h[kPairs[e][1]];
+          add(kSumB + 6 * a + e, -u * hh * f(kRadialB));
+          add(kSumS + 6 * a + e, p * hn * hh * f(kRadialS));
+        }
+        for (int e = 0; e < 3; ++e) {
+          add(kSumP + 3 * a + e, p * h[e] * f(kRadialP));
+          add(kSumQ + 3 * a + e, p * h[e] * f(kRadialQ));
+        }
+      }
+      const double body = weight * scales.body_force;
+      for (int e = 0; e < 3; ++e) add(kSumF + e, body * h[e] * f(kRadialF));
+      for (int e = 0; e < 6; ++e)
+        add(kSumFr + e, body * r * h[kPairs[e][0]] * h[kPairs[e][1]] * f(kRadialF));
+      add(kSumM1, -body * hn * f(kRadialM1));
+      add(kSumM0, body * r * f(kRadialM0));
+    }
+  }
+}
+
+}  // namespace bem
+#endif  // HWY_ONCE

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "assembly/panel_quadrature.hpp"
+#include "base/aligned.hpp"
+#include "kernels/radial_table.hpp"
+
+namespace bem {
+
+/// What is summed over the quadrature points of one triangle, for every lane (lag and stage
+/// component): radial functions times the tensors of h = r/|r|. The constant normal of the triangle
+/// is multiplied in afterwards (add_panel), which saves a third of the sums.
+enum PanelSum : int {
+  kSumA = 0,            ///< a phi_a                                  [3 shape functions]
+  kSumB = kSumA + 3,    ///< -b h_i h_j phi_a                         [3][6: xx xy xz yy yz zz]
+  kSumP = kSumB + 18,   ///< P h_i phi_a                              [3][3]
+  kSumQ = kSumP + 9,    ///< Q h_i phi_a                              [3][3]
+  kSumS = kSumQ + 9,    ///< S (h.n) h_i h_j phi_a                    [3][6]
+  kSumF = kSumS + 18,   ///< F h_i                                    [3]
+  kSumFr = kSumF + 3,   ///< r F h_i h_j                              [6]
+  kSumM1 = kSumFr + 6,  ///< -M_1 (h.n)
+  kSumM0 = kSumM1 + 1,  ///< r M_0
+  kPanelSums = kSumM0 + 1
+};
+
+/// Prefactors of the kernels: 1/(4 pi mu), 1/(4 pi), 1/(4 pi c2^2), and lam per distance.
+struct KernelScales {
+  KernelScales(double shear_modulus, double shear_speed, double dt);
+  double displacement, traction, body_force, lam_per_distance;
+};
+
+/// Working memory of one thread.
+struct PanelScratch {
+  static constexpr int kCoefficients = 59;
+  alignas(64) double coefficient[kCoefficients][PointBatch::kCapacity];
+  alignas(64) double local[PointBatch::kCapacity];
+  const double* interval[PointBatch::kCapacity];
+};
+
+/// sums[PanelSum][padded lane] += the contribution of a batch of points. At singular batches the
+/// static parts of P, Q, S are left out. Runs on the widest vector unit of the machine.
+void accumulate_panel(const RadialTable& table, const KernelScales& scales, const PointBatch& batch,
+                      const Vec3& normal, PanelScratch& scratch, double* sums);
+
+/// The same in plain scalar code, for tests.
+void accumulate_panel_reference(const RadialTable& table, const KernelScales& scales,
+                                const PointBatch& batch, const Vec3& normal, double* sums);
+
+/// Row blocks that a panel adds to: 3x3 blocks [entry][padded lane] of the three vertices of the
+/// triangle (h: 9 entries, g: 6 entries xx xy xz yy yz zz) and of the body-force columns d and l.
+struct PanelTarget {
+  double* h[3];
+  double* g[3];
+  double* d;
+  double* l;
+};
+
+/// Multiplies the normal in and adds the panel's 3x3 blocks to the row.
+void add_panel(const double* sums, const Vec3& normal, int padded_lanes, const PanelTarget& target);
+
+}  // namespace bem

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "assembly/panel_sums.hpp"
+#include "assembly/vertex_fan.hpp"
+#include "base/material.hpp"
+#include "kernels/radial_table.hpp"
+
+namespace bem {
+
+/// One block row of all lag matrices: everything that collocation vertex i contributes, lane by
+/// lane (LaneLayout). Entries of 3x3 blocks are row-major; g is symmetric: xx xy xz yy yz zz.
+struct BlockRow {
+  int padded_lanes = 0;
+  AlignedVector h;  ///< [vertex][9][padded lane]
+  AlignedVector g;  ///< [vertex][6][padded lane]
+  AlignedVector d;  ///< [9][padded lane]
+  AlignedVector q;  ///< [9][padded lane]
+
+  const double* h_block(int vertex) const { return &h[std::size_t(vertex) * 9 * padded_lanes]; }
+  const double* g_block(int vertex) const { return &g[std::size_t(vertex) * 6 * padded_lanes]; }
+};
+
+/// What determines the matrices of a body besides its mesh.
+struct Discretisation {
+  Material material;
+  Scheme scheme = Scheme::radau2();
+  double dt = 0;           ///< [s]
+  int history_length = 0;  ///< number of past steps kept, >= 1
+  double quadrature_tolerance = 1e-6;
+};
+
+/// Assembles all lags of H, G, D and Q together in real arithmetic, one block row at a time. The
+/// mesh has its origin at the centre of mass. Thread safe: rows may be assembled in parallel, each
+/// thread with its own Workspace. Cost per row: O(N) panels of 6 to 33 points.
+class RowAssembler {
+ public:
+  struct Workspace {
+    PointBatch batch;
+    PanelScratch scratch;
+    AlignedVector sums;
+  };
+
+  /// `extent`: largest distance between two vertices (mesh/extent.hpp) [m].
+  RowAssembler(const TriangleMesh& mesh, double extent, const Discretisation& discretisation);
+
+  /// Row of collocation vertex `vertex`; with `fix_translation` its own block is set so that rigid
+  /// translation is exact for every lag (M43), whatever the quadrature. Returns the
+  /// largest entry of that change (the free term is about 1/2): the row-sum residual of the
+  /// quadrature.
+  double assemble(int vertex, bool fix_translation, Workspace& workspace, BlockRow& row) const;
+
+  const RadialTable& table() const { return table_; }
+  const LaneLayout& layout() const { return table_.layout(); }
+  const TriangleMesh& mesh() const { return mesh_; }
+  const Discretisation& discretisation() const { return discretisation_; }
+
+ private:
+  double fix_own_block(int vertex, BlockRow& row) const;
+
+  const TriangleMesh& mesh_;
+  Discretisation discretisation_;
+  RadialTable table_;
+  KernelScales scales_;
+  PanelQuadrature quadrature_;
+  VertexFans fans_;
+};
+
+/// Bound of |Delta| on the unit circle: |s|_max dt of the scheme.
+double largest_symbol(const Scheme& scheme);
+
+}  // namespace bem

@@ -1,0 +1,61 @@
+#include "assembly/laplace_assembly.hpp"
+#include "support/bodies.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace bem;
+using namespace bem_test;
+
+namespace {
+
+/// Largest residual of H(0) u = G(0) p for a linear displacement field, relative to |u|  (M40).
+double patch_residual(const TriangleMesh& mesh, const Material& m, double tolerance) {
+  Mat3 a;
+  a << 0.3, -0.2, 0.5, 0.1, 0.4, -0.3, 0.2, 0.6, -0.1;
+  if (m.poisson_ratio == 0.5) a -= a.trace() / 3 * Mat3::Identity();
+  const Mat3 strain = 0.5 * (a + a.transpose());
+  const double lambda = m.poisson_ratio == 0.5
+                            ? 0
+                            : 2 * m.shear_modulus * m.poisson_ratio / (1 - 2 * m.poisson_ratio);
+  const Mat3 stress = 2 * m.shear_modulus * strain + lambda * strain.trace() * Mat3::Identity();
+  Eigen::VectorXcd u(3 * mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    u.segment<3>(3 * i) = (a * mesh.vertices[i] + Vec3(0.1, 0.2, -0.3)).cast<Complex>();
+  std::vector<std::array<Eigen::Vector3cd, 3>> tractions;
+  for (const Triangle& t : mesh.triangles) {
+    const Eigen::Vector3cd p = (stress * triangle_normal(mesh, t)).cast<Complex>();
+    tractions.push_back({p, p, p});
+  }
+  const LaplaceMatrices matrices = laplace_matrices(mesh, m, 0, tolerance);
+  const Eigen::VectorXcd load = laplace_corner_load(mesh, m, 0, tolerance, tractions);
+  return (matrices.h * u - load).cwiseAbs().maxCoeff() / u.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("uniform strain satisfies the static equation exactly on flat-triangle meshes") {
+  const std::pair<const char*, TriangleMesh> bodies[] = {
+      {"icosphere", centred(icosphere(1, 0.7))},
+      {"cube", centred(box(Vec3(1, 1, 1), {3, 3, 3}))},
+      {"tetrahedron", centred(random_tetrahedron(7))},
+      {"star", centred(star(2, 1))},
+      {"notched cube", centred(notched_cube(1, 4))}};
+  for (double nu : {0.0, 0.3, 0.49, 0.5})
+    for (const auto& [name, mesh] : bodies) {
+      INFO(name << ", nu " << nu);
+      CHECK(patch_residual(mesh, material(1.3, 2.1, nu), 1e-8) < 3e-6);
+      CHECK(patch_residual(mesh, material(1.3, 2.1, nu), 1e-8) > 1e-16);
+    }
+}
+
+TEST_CASE("rigid motion is reproduced by the body-force columns for any s") {
+  const TriangleMesh mesh = centred(star(1, 1));
+  for (double nu : {0.0, 0.3, 0.5})
+    for (Complex s : {Complex(1, 2), Complex(4, -3)}) {
+      const LaplaceMatrices m = laplace_matrices(mesh, material(1.3, 2.1, nu), s, 1e-8);
+      const Eigen::MatrixXcd t = m.h * translations(mesh) + s * s * m.d;
+      const Eigen::MatrixXcd r = m.h * rotations(mesh) + s * s * m.q;
+      CHECK(t.cwiseAbs().maxCoeff() < 2e-6);
+      CHECK(r.cwiseAbs().maxCoeff() < 2e-6);
+    }
+}
