@@ -190,9 +190,10 @@ class Renderer:
                        for k, b in enumerate(bodies)]
         axes = camera.view_axes(*options.view, options.up)
         light = camera.light_direction(axes, options.up)
-        self.look = scene.Look(None, light, camera.UP[options.up], body_size,
+        self.look = scene.Look(light, camera.UP[options.up], body_size,
                                self._ground(bodies, light, body_size), options.mesh_lines)
         self.axes = axes
+        self.stages = {}  # (width, height, has colour bar) -> Stage
         self.legend = ([(b.name, s.color) for b, s in zip(bodies, self.shapes)]
                        if options.color == "body" and len(bodies) > 1 else ())
 
@@ -209,19 +210,25 @@ class Renderer:
         result.fit([np.concatenate([b.positions[k] for b in bodies]) for k in range(frames)])
         return result
 
+    def _stage(self, width, height, scale):
+        """The empty picture, with room for the time below and the colour bar at the right."""
+        key = width, height, scale is not None
+        if key not in self.stages:
+            captions = picture.Captions(height)
+            bottom = 0.05 if self.options.no_text else 0.05 + 2 * captions.size / height
+            margins = (0.05, max(0.05, captions.bar_width(scale) / width), 0.05, bottom)
+            view = camera.frame_points([b.positions for b in self.motion.bodies], self.axes, width / height,
+                                       self.options.fov, self.options.zoom, self.options.look_at, margins)
+            self.stages[key] = scene.Stage(self.look, view, width, height)
+        return self.stages[key]
+
     def frame(self, index, size, with_bar):
         """The annotated picture of the index-th drawn frame."""
-        width, height = size
-        captions = picture.Captions(height)
         texts = not self.options.no_text
         scale = self.scale if texts and with_bar else None
-        room = captions.bar_width(scale) / width
-        margins = (0.05, max(0.05, room), 0.05, 0.05 + (2 * captions.size / height if texts else 0))
-        self.look.camera = camera.frame_points(
-            [b.positions for b in self.motion.bodies], self.axes, width / height, self.options.fov,
-            self.options.zoom, self.options.look_at, margins)
-        pixels = scene.draw(self.look, self.shapes, [b.positions[index] for b in self.motion.bodies],
-                            [None if s is None else s[index] for s in self.shares], width, height)
+        pixels = self._stage(*size, scale).draw(
+            self.shapes, [b.positions[index] for b in self.motion.bodies],
+            [None if s is None else s[index] for s in self.shares])
         if not texts:
             return pixels
         note = ""
@@ -229,6 +236,7 @@ class Renderer:
             note = f"grid {ground.grid_spacing(self.look.ground):g} m"
         if self.options.deform_scale != 1:
             note = f"deformation ×{self.options.deform_scale:g}" + (", " + note if note else "")
+        captions = picture.Captions(size[1])
         return captions.annotate(pixels, time_text(self.motion.times, index), note, scale, self.legend)
 
 

@@ -7,7 +7,7 @@ from .colors import nice_step
 from .geometry import normalised
 from .raster import visible_triangles
 
-TEXELS = 420  # along the longer side of the largest shadow
+TEXELS = 320  # along the longer side of the largest shadow
 
 
 @dataclasses.dataclass
@@ -58,7 +58,7 @@ class GroundShadow:
         low = np.minimum(lit.min(axis=0), below.min(axis=0)) / ground.texel
         high = np.maximum(lit.max(axis=0), below.max(axis=0)) / ground.texel
         self.origin = np.floor(low).astype(int) - pad
-        columns, rows = np.ceil(high).astype(int) + pad - self.origin
+        columns, rows = (_fast_size(n) for n in np.ceil(high).astype(int) + pad - self.origin)
         height = np.maximum(ground.height(points), 0.0)
         solid = (ground.height(points)[faces] > 0).any(axis=1)
         size = ground.body_size / ground.texel
@@ -66,7 +66,8 @@ class GroundShadow:
         self.key = _soft_shadow(heights / ground.texel, size)
         heights = self._lowest(below, height, faces[solid], rows, columns)
         near = np.where(np.isfinite(heights), np.exp(-heights / (0.10 * ground.body_size)), 0.0)
-        self.contact = np.clip(0.55 * _blurred(near, 0.035 * size) + 0.45 * _blurred(near, 0.11 * size), 0, 1)
+        tight, wide = _blurs(near, (0.035 * size, 0.11 * size))
+        self.contact = np.clip(0.55 * tight + 0.45 * wide, 0, 1)
 
     def _lowest(self, flat, height, faces, rows, columns):
         """Height of the lowest point over each texel, infinite where there is none."""
@@ -75,39 +76,42 @@ class GroundShadow:
         owner = visible_triangles(corners, -height[faces], columns, rows).reshape(rows, columns)
         return np.where(owner >= 0, mean[owner] if len(mean) else 0.0, np.inf)
 
-    def at(self, points):
-        """(key shadow, contact darkening), both 0..1, at points of the plane [n, 3]."""
-        place = points @ self.ground.axes().T / self.ground.texel - self.origin - 0.5
+    def at(self, flat):
+        """Key shadow and contact darkening, both 0..1, at plane coordinates [n, 2]."""
+        results = np.zeros((2, len(flat)))
         rows, columns = self.key.shape
-        x = np.clip(place[:, 0], 0, columns - 1.001)
-        y = np.clip(place[:, 1], 0, rows - 1.001)
+        place = flat / self.ground.texel - self.origin - 0.5
+        covered = np.flatnonzero(((place >= 0) & (place < [columns - 1, rows - 1])).all(axis=1))
+        x, y = place[covered].T
         i, j = x.astype(int), y.astype(int)
         s, t = x - i, y - j
-        inside = (np.abs(place - np.stack([x, y], axis=1)) < 1.01).all(axis=1)
-        results = []
-        for grid in (self.key, self.contact):
-            value = ((grid[j, i] * (1 - s) + grid[j, i + 1] * s) * (1 - t)
-                     + (grid[j + 1, i] * (1 - s) + grid[j + 1, i + 1] * s) * t)
-            results.append(np.where(inside, value, 0.0))
+        for result, grid in zip(results, (self.key, self.contact)):
+            result[covered] = ((grid[j, i] * (1 - s) + grid[j, i + 1] * s) * (1 - t)
+                               + (grid[j + 1, i] * (1 - s) + grid[j + 1, i + 1] * s) * t)
         return results
 
 
-def _blurred(grid, sigma):
-    """Gaussian blur [texels] with wrapped borders, which the padding keeps empty."""
+def _fast_size(size):
+    """The next size that Fourier transforms do quickly: 2^n times 1, 3, 5 or 9."""
+    return min(m * 2 ** int(np.ceil(np.log2(max(size, 16) / m))) for m in (1, 3, 5, 9))
+
+
+def _blurs(grid, sigmas):
+    """Gaussian blurs [texels] with wrapped borders, which the padding keeps empty."""
     rows, columns = grid.shape
-    fy, fx = np.fft.fftfreq(rows), np.fft.rfftfreq(columns)
-    response = np.exp(-2 * (np.pi * sigma) ** 2 * (fy[:, None] ** 2 + fx[None, :] ** 2))
-    return np.fft.irfft2(np.fft.rfft2(grid) * response, s=grid.shape)
+    squared = np.fft.fftfreq(rows)[:, None] ** 2 + np.fft.rfftfreq(columns)[None, :] ** 2
+    transformed = np.fft.rfft2(grid)
+    return [np.fft.irfft2(transformed * np.exp(-2 * (np.pi * sigma) ** 2 * squared), s=grid.shape)
+            for sigma in sigmas]
 
 
 def _soft_shadow(heights, size):
     """Coverage blurred the more the higher the caster is above the plane; all lengths in texels."""
     mask = np.isfinite(heights).astype(float)
     spread = 0.04 * size
-    weight = _blurred(mask, spread)
-    casting = _blurred(np.where(mask > 0, heights, 0.0), spread) / np.maximum(weight, 1e-3)
-    sigmas = np.array([1.2, 0.012 * size, 0.035 * size, 0.09 * size])
-    levels = [_blurred(mask, sigma) for sigma in sigmas]
+    sigmas = np.maximum([1.2, 0.012 * size, 0.035 * size, 0.09 * size], [1.2, 1.21, 1.22, 1.23])
+    weight, *levels = _blurs(mask, [spread, *sigmas])
+    casting = _blurs(np.where(mask > 0, heights, 0.0), [spread])[0] / np.maximum(weight, 1e-3)
     wanted = np.log(np.clip(0.16 * casting, sigmas[0], sigmas[-1]))
     place = np.interp(wanted, np.log(sigmas), np.arange(len(sigmas)))
     result = np.zeros_like(mask)
@@ -116,42 +120,57 @@ def _soft_shadow(heights, size):
     return np.clip(result, 0, 1)
 
 
-def paint(ground, background, camera, shadow):
-    """The background [h, w, 3] (linear light) with the plane drawn over it, and the plane's inverse
-    depth [h, w], 0 where it is not seen."""
-    height, width, _ = background.shape
-    rays = camera.rays(width, height).reshape(-1, 3)
-    falling = -(rays @ ground.normal)
-    eye_height = ground.height(camera.eye)
-    if eye_height <= 0:
-        return background, np.zeros((height, width))
-    inverse = np.maximum(falling, 0.0) / eye_height
-    seen = np.flatnonzero(inverse > 0)
-    points = camera.eye + rays[seen] / inverse[seen, None]
-    away = np.linalg.norm(points - ground.center, axis=1) / ground.radius
-    strength = 1 - _smoothstep(1.1, 4.5, away)
-    near = np.flatnonzero(away < 4.5)
-    seen_near, points, strength = seen[near], points[near], strength[near, None]
-    slant = np.maximum(falling[seen_near] / np.linalg.norm(rays[seen_near], axis=1), 0.02)
-    pixel = 1 / (inverse[seen_near] * camera.focal * height * slant)
-    lines = _grid_lines(points @ ground.axes().T, grid_spacing(ground), pixel)
-    key, contact = shadow.at(points)
-    # Shadows are lit by the sky alone, so they are a little bluer.
-    light = ((1 - 0.50 * key) * (1 - 0.60 * contact))[:, None] ** np.array([1.06, 1.0, 0.90])
-    result = background.reshape(-1, 3).copy()
-    result[seen_near] *= (1 - strength * (0.05 + 0.20 * lines[:, None])) * light
-    return result.reshape(background.shape), inverse.reshape(height, width)
+class GroundView:
+    """The plane as one camera sees it; only the shadows change from frame to frame."""
+
+    def __init__(self, ground, background, camera):
+        """background [h, w, 3] in linear light. inverse_depth [h * w] is 0 where no plane is seen."""
+        height, width, _ = background.shape
+        self.background = background.reshape(-1, 3).copy()
+        rays = camera.rays(width, height).reshape(-1, 3)
+        eye_height = ground.height(camera.eye)
+        falling = np.maximum(-(rays @ ground.normal), 0.0)
+        self.inverse_depth = falling / eye_height if eye_height > 0 else np.zeros(len(rays))
+        seen = np.flatnonzero(self.inverse_depth > 0)
+        points = camera.eye + rays[seen] / self.inverse_depth[seen, None]
+        away = np.linalg.norm(points - ground.center, axis=1) / ground.radius
+        near = away < 4.5
+        self.pixels, points = seen[near], points[near]
+        strength = 1 - _smoothstep(1.1, 4.5, away[near, None])
+        self.flat = points @ ground.axes().T
+        depth = 1 / self.inverse_depth[self.pixels]
+        footprint = _pixel_footprint(ground, camera, rays[self.pixels], depth, height)
+        lines = _grid_lines(self.flat, grid_spacing(ground), footprint)
+        self.background[self.pixels] *= 1 - strength * (0.05 + 0.20 * lines[:, None])
+
+    def shaded(self, shadow):
+        """The background with plane and shadows [h * w, 3]."""
+        key, contact = shadow.at(self.flat)
+        dark = np.flatnonzero(key + contact > 1e-4)
+        light = (1 - 0.50 * key[dark]) * (1 - 0.60 * contact[dark])
+        result = self.background.copy()
+        # Shadows are lit by the sky alone, so they are a little bluer.
+        result[self.pixels[dark]] *= light[:, None] ** np.array([1.06, 1.0, 0.90])
+        return result
 
 
 def grid_spacing(ground):
-    return nice_step(0.4 * ground.body_size)
+    return nice_step(0.22 * ground.body_size)
+
+
+def _pixel_footprint(ground, camera, rays, depth, height):
+    """How far each plane coordinate [n, 2] changes from one pixel to the next."""
+    axes = ground.axes()
+    slope = rays @ axes.T / -(rays @ ground.normal)[:, None]
+    steps = [axes @ side + slope * (side @ ground.normal) for side in camera.axes[:2]]
+    return np.hypot(*steps) * (depth / (camera.focal * height))[:, None]
 
 
 def _grid_lines(flat, spacing, pixel):
     """How much of each pixel a line of the grid covers, 0..1."""
     distance = np.abs((flat / spacing + 0.5) % 1.0 - 0.5) * spacing
-    cover = np.clip(1.1 - distance / pixel[:, None], 0, 1).max(axis=1)
-    return cover * np.clip(1.5 - 4 * pixel / spacing, 0, 1)
+    cover = np.clip(1.25 - distance / pixel, 0, 1)
+    return (cover * np.clip(1.5 - 5 * pixel / spacing, 0, 1)).max(axis=1)
 
 
 def _smoothstep(low, high, value):

@@ -3,17 +3,17 @@ import dataclasses
 
 import numpy as np
 
-from . import colors, geometry, ground as ground_module
-from .camera import Camera
+from . import colors, geometry
+from .ground import Ground, GroundShadow, GroundView
 from .raster import barycentric_coefficients, visible_triangles
 
 SAMPLES = 2  # per pixel and direction
-SHADOW_MAP = 1024
+SHADOW_MAP = 800
 SKY = colors.to_linear([0.955, 0.968, 0.985])
 HORIZON = colors.to_linear([0.800, 0.832, 0.872])
-KEY_LIGHT = np.array([1.00, 0.965, 0.91]) * 0.80
-SKY_LIGHT = np.array([0.50, 0.56, 0.64])
-GROUND_LIGHT = np.array([0.25, 0.235, 0.22])
+KEY_LIGHT = np.array([1.00, 0.965, 0.91]) * 0.95
+SKY_LIGHT = np.array([0.58, 0.64, 0.72])
+GROUND_LIGHT = np.array([0.34, 0.325, 0.31])
 # 16 points spread evenly over the unit disc (a Vogel spiral).
 _TAPS = np.stack([np.sqrt((np.arange(16) + 0.5) / 16) * np.cos(2.39996323 * np.arange(16)),
                   np.sqrt((np.arange(16) + 0.5) / 16) * np.sin(2.39996323 * np.arange(16))], axis=1)
@@ -31,11 +31,10 @@ class Shape:
 @dataclasses.dataclass
 class Look:
     """What stays the same of the picture over all frames."""
-    camera: Camera
     light: np.ndarray  # unit vector towards the key light
     up: np.ndarray
     body_size: float  # [m]
-    ground: ground_module.Ground | None = None
+    ground: Ground | None = None
     mesh_lines: bool = False
 
 
@@ -55,59 +54,84 @@ class _Surface:
         self.facing = geometry.face_normals(self.points, self.faces)
 
 
-def draw(look, shapes, points, shares, width, height):
-    """One frame as [height, width, 3] bytes. points: per body [N, 3]; shares: per body None or [N]
-    values 0..1 that the colour map turns into colours."""
-    surface = _Surface(shapes, points, shares)
-    share_down = ((np.arange(height) + 0.5) / height)[:, None, None]
-    background = np.broadcast_to(SKY * (1 - share_down) + HORIZON * share_down, (height, width, 3))
-    plane = np.zeros((height, width))
-    if look.ground is not None:
-        shadow = ground_module.GroundShadow(look.ground, surface.points, surface.faces)
-        background, plane = ground_module.paint(look.ground, background, look.camera, shadow)
-    picture = _draw_bodies(look, shapes, surface, background.reshape(-1, 3), plane, width, height)
-    return np.round(255 * colors.to_srgb(picture)).astype(np.uint8).reshape(height, width, 3)
+class Stage:
+    """An empty picture: one look through one camera at one size, ready to draw frames."""
+
+    def __init__(self, look, camera, width, height):
+        self.look, self.camera, self.width, self.height = look, camera, width, height
+        down = ((np.arange(height) + 0.5) / height)[:, None, None]
+        background = np.broadcast_to(SKY * (1 - down) + HORIZON * down, (height, width, 3))
+        self.background = background.reshape(-1, 3)
+        self.ground = GroundView(look.ground, background, camera) if look.ground else None
+
+    def draw(self, shapes, points, shares):
+        """One frame as [height, width, 3] bytes. points: per body [N, 3]; shares: per body None or
+        [N] values 0..1 that the colour map turns into colours."""
+        surface = _Surface(shapes, points, shares)
+        background = self.background
+        if self.ground:
+            background = self.ground.shaded(GroundShadow(self.look.ground, surface.points, surface.faces))
+        color, cover = self._bodies(shapes, surface)
+        picture = background * (1 - cover)[:, None] + color
+        encoded = np.round(255 * colors.to_srgb(picture)).astype(np.uint8)
+        return encoded.reshape(self.height, self.width, 3)
+
+    def _bodies(self, shapes, surface):
+        """Linear light [pixels, 3], already weighted by the covered share of each pixel [pixels]."""
+        wide, high = SAMPLES * self.width, SAMPLES * self.height
+        screen, inverse = self.camera.project(surface.corners, wide, high)
+        to_eye = self.camera.eye - surface.corners[:, 0]
+        seen = np.flatnonzero(np.einsum("ti,ti->t", surface.facing, to_eye) > 0)
+        screen, inverse = screen[seen], inverse[seen]
+        owner = visible_triangles(screen, inverse, wide, high)
+        pixel, local, place, share = _fragments(owner, self.width, self.height)
+        coefficients = barycentric_coefficients(screen)
+        flat = np.einsum("sij,sj->si", coefficients[local], place)
+        depth = np.einsum("si,si->s", flat, inverse[local])
+        if self.ground:
+            front = depth > self.ground.inverse_depth[pixel] * (1 - 1e-4)
+            pixel, local, flat, depth, share = (a[front] for a in (pixel, local, flat, depth, share))
+        weights = flat * inverse[local] / depth[:, None]  # perspective-correct
+        color = _shade(self.look, self.camera.eye, shapes, surface, seen[local], weights)
+        if self.look.mesh_lines:
+            color *= _mesh_line_factor(coefficients, local, flat)[:, None]
+        pixels = self.width * self.height
+        color = np.stack([np.bincount(pixel, share * c, minlength=pixels) for c in color.T], axis=1)
+        return color, np.bincount(pixel, share, minlength=pixels)
 
 
-def _draw_bodies(look, shapes, surface, background, plane, width, height):
-    wide, high = SAMPLES * width, SAMPLES * height
-    screen, inverse = look.camera.project(surface.corners, wide, high)
-    to_eye = look.camera.eye - surface.corners[:, 0]
-    seen = np.flatnonzero(np.einsum("ti,ti->t", surface.facing, to_eye) > 0)
-    owner = visible_triangles(screen[seen], inverse[seen], wide, high)
-    sample = np.flatnonzero(owner >= 0)
-    pixel = (sample // wide // SAMPLES) * width + sample % wide // SAMPLES
-    triangle = seen[owner[sample]]
-    position = np.stack([sample % wide + 0.5, sample // wide + 0.5, np.ones(len(sample))], axis=1)
-    flat = np.einsum("sij,sj->si", barycentric_coefficients(screen[seen])[owner[sample]], position)
-    depth = np.einsum("si,si->s", flat, inverse[triangle])
-    front = depth > plane.ravel()[pixel] * (1 - 1e-4)
-    sample, pixel, triangle, flat, depth = (a[front] for a in (sample, pixel, triangle, flat, depth))
-    weights = flat * inverse[triangle] / depth[:, None]  # perspective-correct
-    color = _shade(look, shapes, surface, triangle, weights)
-    if look.mesh_lines:
-        color *= _mesh_line_factor(screen, triangle, flat)[:, None]
-    share = 1.0 / SAMPLES ** 2
-    pixels = width * height
-    rest = 1 - share * np.bincount(pixel, minlength=pixels)
-    return np.stack([background[:, k] * rest + share * np.bincount(pixel, color[:, k], minlength=pixels)
-                     for k in range(3)], axis=1)
+def _fragments(owner, width, height):
+    """What is shaded: every triangle once in each pixel where it owns samples. Returns pixel,
+    triangle, mean place of the samples (x, y, 1), and their share of the pixel."""
+    count = SAMPLES ** 2
+    owners = owner.reshape(height, SAMPLES, width, SAMPLES).swapaxes(1, 2).reshape(-1, count)
+    covered = np.flatnonzero((owners >= 0).any(axis=1))
+    owners = owners[covered]
+    same = owners[:, :, None] == owners[:, None, :]
+    first = ~(same & np.tri(count, k=-1, dtype=bool)).any(axis=2) & (owners >= 0)
+    row, sample = np.nonzero(first)
+    members = same[row, sample].astype(float)
+    number = members.sum(axis=1)
+    pixel = covered[row]
+    x = pixel % width * SAMPLES + 0.5 + members @ (np.arange(count) % SAMPLES) / number
+    y = pixel // width * SAMPLES + 0.5 + members @ (np.arange(count) // SAMPLES) / number
+    return pixel, owners[row, sample], np.stack([x, y, np.ones(len(x))], axis=1), number / count
 
 
-def _mesh_line_factor(screen, triangle, flat):
-    """Darkens samples that lie within about half a pixel of an edge of their triangle."""
-    slope = np.linalg.norm(barycentric_coefficients(screen)[..., :2], axis=-1)[triangle]
-    distance = (flat / np.maximum(slope, 1e-12)).min(axis=1)
-    return 1 - 0.45 * np.clip(1.4 - distance / (0.5 * SAMPLES), 0, 1)
+def _mesh_line_factor(coefficients, triangle, flat):
+    """Darkens places that lie within about half a pixel of an edge of their triangle."""
+    slope = np.linalg.norm(coefficients[..., :2], axis=-1)[triangle]
+    distance = (flat / np.maximum(slope, 1e-12)).min(axis=1) / SAMPLES
+    return 1 - 0.45 * np.clip(1.1 - 1.6 * distance, 0, 1)
 
 
-def _shade(look, shapes, surface, triangle, weights):
-    """Linear light of each sample: diffuse key light with shadows, sky and ground light, a weak
+def _shade(look, eye, shapes, surface, triangle, weights):
+    """Linear light of each fragment: diffuse key light with shadows, sky and ground light, a weak
     highlight and a rim."""
     normal = geometry.normalised(np.einsum("si,sij->sj", weights, surface.normals[triangle]))
     point = np.einsum("si,sij->sj", weights, surface.corners[triangle])
     base = _base_color(shapes, surface, triangle, weights)
-    view = geometry.normalised(look.camera.eye - point)
+    view = geometry.normalised(eye - point)
     facing = np.einsum("si,si->s", normal, view)
     lit = normal @ look.light
     open_sky = _ShadowMap(surface, look.light).light(point, normal, lit)
