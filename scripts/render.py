@@ -12,6 +12,7 @@ import concurrent.futures
 import multiprocessing
 import os
 import pathlib
+import re
 import sys
 
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
@@ -80,6 +81,17 @@ def plane(text):
     return normal / length, offset / length
 
 
+def _joined(arguments):
+    """Turns `--view -35,20` into `--view=-35,20`: argparse takes `-35,20` for an option."""
+    result = []
+    for argument in arguments:
+        if re.match(r"-[\d.]", argument) and result and re.fullmatch(r"--[a-z-]+", result[-1]):
+            result[-1] += "=" + argument
+        else:
+            result.append(argument)
+    return result
+
+
 def parse_arguments(arguments):
     parser = Parser(prog="render.py", description=__doc__.splitlines()[0])
     add = parser.add_argument
@@ -119,7 +131,7 @@ def parse_arguments(arguments):
     add("--jobs", type=positive(int), default=os.cpu_count() or 1, metavar="N",
         help="worker processes; the pictures are the same for any N (all cores)")
     add("-q", "--quiet", action="store_true", help="no progress on stderr")
-    options = parser.parse_args(arguments)
+    options = parser.parse_args(_joined(sys.argv[1:] if arguments is None else arguments))
     if not (options.output or options.sheet or options.mp4):
         parser.error("nothing to write: give -o DIR, --sheet PNG or --mp4 FILE")
     if options.range and options.range[0] >= options.range[1]:

@@ -80,15 +80,23 @@ class Captions:
                    + 1.8 * self.size)
 
     def bar(self, image, right, top, length, scale):
-        canvas = ImageDraw.Draw(image)
+        """Draws the colour bar on a light veil, so that it can be read over bodies, too."""
         ticks, texts, title, unit = self._bar_texts(scale)
         left = right - self.bar_width(scale) + round(1.8 * self.size)
+        box = (left - round(0.7 * self.size), top - round(3.4 * self.size),
+               min(right + round(0.5 * self.size), image.width), top + length + round(0.9 * self.size))
+        veil = Image.new("RGB", (box[2] - box[0], box[3] - box[1]), PAPER)
+        image.paste(Image.blend(image.crop(box), veil, 0.55), box[:2])
+        canvas = ImageDraw.Draw(image)
         wide = round(0.95 * self.size)
         canvas.text((left, top - 1.9 * self.size), title, INK, self.small, anchor="ls")
         canvas.text((left, top - 0.7 * self.size), unit, FAINT_INK, self.small, anchor="ls")
         strip = np.round(255 * colors.viridis(length)[::-1]).astype(np.uint8)
         image.paste(Image.fromarray(np.repeat(strip[:, None], wide, axis=1)), (left, top))
         canvas.rectangle((left - 1, top - 1, left + wide, top + length), outline=(255, 255, 255))
+        if scale.clipped:  # an arrow: some values lie beyond the end
+            tip = (left + (wide - 1) / 2, top - 0.45 * self.size)
+            canvas.polygon([(left, top - 2), (left + wide - 1, top - 2), tip], tuple(int(c) for c in strip[0]))
         for value, text in zip(ticks, texts):
             y = top + (length - 1) * (1 - scale.shares(value))
             canvas.line((left + wide + 2, y, left + wide + 0.4 * self.size, y), FAINT_INK)
@@ -97,8 +105,7 @@ class Captions:
     def _bar_texts(self, scale):
         ticks, texts = scale.ticks()
         _, unit = scale.display()
-        title = scale.title + (" (clipped)" if scale.clipped else "")
-        return ticks, texts, title, f"[{unit}]"
+        return ticks, texts, scale.title, f"[{unit}]"
 
 
 def contact_sheet(panels, columns, scale=None):

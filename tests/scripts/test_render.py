@@ -107,7 +107,7 @@ class Pictures(unittest.TestCase):
         options = ("--color", "displacement", "--view", "0,0", "--look-at", "2,0,0")
         table = colors.viridis()
         for limits, expected in (("0,2", table[-1]), ("0,4", table[128]), ("0,1000", table[0]), ("-9,-1", table[-1])):
-            picture = self.frames(*options, f"--range={limits}")[1]
+            picture = self.frames(*options, "--range", limits)[1]
             distances = [hue_distance(picture[45, 60], color) for color in (table[0], table[128], table[-1])]
             self.assertEqual(np.argmin(distances), np.argmin([hue_distance(expected, c) for c in
                                                               (table[0], table[128], table[-1])]), limits)
