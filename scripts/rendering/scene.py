@@ -11,7 +11,7 @@ SAMPLES = 2  # per pixel and direction
 SHADOW_MAP = 800
 SKY = colors.to_linear([0.955, 0.968, 0.985])
 HORIZON = colors.to_linear([0.800, 0.832, 0.872])
-KEY_LIGHT = np.array([1.00, 0.965, 0.91]) * 0.95
+KEY_LIGHT = np.array([1.00, 0.965, 0.91]) * 0.84
 SKY_LIGHT = np.array([0.58, 0.64, 0.72])
 GROUND_LIGHT = np.array([0.34, 0.325, 0.31])
 # 16 points spread evenly over the unit disc (a Vogel spiral).
