@@ -1,0 +1,1 @@
+"""Headless software renderer for trajectories: numpy only, deterministic, no GL and no display."""
