@@ -13,10 +13,11 @@ namespace bem {
 /// zero.
 struct PointBatch {
   static constexpr int kCapacity = 64;
-  static constexpr int kPadding = 8;
+  static constexpr int kPadding = 16;
 
   int size = 0;
-  bool singular = false;              ///< x is a vertex of the triangle: integrate dp*, not p*
+  bool singular = false;  ///< x is a vertex of the triangle: integrate dp*, not p*
+  bool far = false;       ///< x is more than two edge lengths away
   double r[3][kCapacity];             ///< y - x [m]
   double shape_weight[3][kCapacity];  ///< weight * shape function of the triangle's vertices [m^2]
 
@@ -49,6 +50,7 @@ class PanelQuadrature {
     const int corner = corner_of(vertex, triangle);
     batch.clear();
     batch.singular = corner >= 0;
+    batch.far = false;
     const auto flush = [&] {
       if (batch.size == 0) return;
       batch.pad();
@@ -66,7 +68,8 @@ class PanelQuadrature {
       }
     } else {
       const int rule = far_rule(vertex, triangle);
-      if (rule >= 0)
+      batch.far = rule >= 0;
+      if (batch.far)
         add_rule(vertex, triangle, rule, batch);
       else
         subdivide(vertex, triangle, batch, flush);

@@ -24,21 +24,34 @@ enum : int {
   kCoefM1 = kCoefFr + 6,
   kCoefM0 = kCoefM1 + 1,
 };
-static_assert(kCoefM0 + 1 == PanelScratch::kCoefficients);
+static_assert(kCoefM0 + 1 == PanelScratch<double>::kCoefficients);
+
+template <class D>
+HWY_INLINE hn::Vec<D> LoadPoints(D d, const double* HWY_RESTRICT from) {
+  if constexpr (std::is_same_v<hn::TFromD<D>, double>) {
+    return hn::LoadU(d, from);
+  } else {
+    alignas(64) hn::TFromD<D> narrow[64 / sizeof(float)];
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) narrow[i] = static_cast<float>(from[i]);
+    return hn::Load(d, narrow);
+  }
+}
 
 /// Tensor coefficients of all points, lanes over points; also finds the table intervals.
-void Coefficients(const RadialTable& table, const KernelScales& scales, const PointBatch& batch,
-                  const Vec3& normal, PanelScratch& scratch) {
-  const hn::CappedTag<double, PointBatch::kPadding> d;
+template <class T>
+void Coefficients(const LaneTable<T>& table, const KernelScales& scales, const PointBatch& batch,
+                  const Vec3& normal, PanelScratch<T>& scratch) {
+  const hn::CappedTag<T, PointBatch::kPadding> d;
   using V = hn::Vec<decltype(d)>;
-  const V nx = hn::Set(d, normal[0]), ny = hn::Set(d, normal[1]), nz = hn::Set(d, normal[2]);
-  const V per_distance = hn::Set(d, scales.lam_per_distance * table.intervals_per_lam());
-  const V last = hn::Set(d, table.intervals() - 1.0);
-  const V one = hn::Set(d, 1.0);
-  alignas(64) double intervals[kCapacity];
+  const auto set = [&d](double value) { return hn::Set(d, static_cast<T>(value)); };
+  const V nx = set(normal[0]), ny = set(normal[1]), nz = set(normal[2]);
+  const V per_distance = set(scales.lam_per_distance * table.intervals_per_lam);
+  const V last = set(table.intervals - 1.0);
+  const V one = set(1.0);
+  alignas(64) T intervals[kCapacity];
   for (int q = 0; q < batch.padded_size(); q += static_cast<int>(hn::Lanes(d))) {
-    const V x = hn::LoadU(d, batch.r[0] + q), y = hn::LoadU(d, batch.r[1] + q),
-            z = hn::LoadU(d, batch.r[2] + q);
+    const V x = LoadPoints(d, batch.r[0] + q), y = LoadPoints(d, batch.r[1] + q),
+            z = LoadPoints(d, batch.r[2] + q);
     const V r = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
     const V inverse = hn::Div(one, r);
     const V h[3] = {hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse)};
@@ -54,10 +67,10 @@ void Coefficients(const RadialTable& table, const KernelScales& scales, const Po
 
     const auto store = [&](int row, V value) { hn::Store(value, d, scratch.coefficient[row] + q); };
     V weight = hn::Zero(d);
-    const V u_scale = hn::Mul(hn::Set(d, scales.displacement), inverse);
-    const V p_scale = hn::Mul(hn::Set(d, scales.traction), hn::Mul(inverse, inverse));
+    const V u_scale = hn::Mul(set(scales.displacement), inverse);
+    const V p_scale = hn::Mul(set(scales.traction), hn::Mul(inverse, inverse));
     for (int a = 0; a < 3; ++a) {
-      const V w = hn::LoadU(d, batch.shape_weight[a] + q);
+      const V w = LoadPoints(d, batch.shape_weight[a] + q);
       weight = hn::Add(weight, w);
       const V u = hn::Mul(w, u_scale);
       const V p = hn::Mul(w, p_scale);
@@ -69,21 +82,21 @@ void Coefficients(const RadialTable& table, const KernelScales& scales, const Po
       }
       for (int e = 0; e < 3; ++e) store(kCoefPQ + 3 * a + e, hn::Mul(p, h[e]));
     }
-    const V body = hn::Mul(weight, hn::Set(d, scales.body_force));
+    const V body = hn::Mul(weight, set(scales.body_force));
     const V body_r = hn::Mul(body, r);
     for (int e = 0; e < 3; ++e) store(kCoefF + e, hn::Mul(body, h[e]));
     for (int e = 0; e < 6; ++e) store(kCoefFr + e, hn::Mul(body_r, hh[e]));
     store(kCoefM1, hn::Neg(hn::Mul(body, hn_)));
     store(kCoefM0, body_r);
   }
-  for (int q = 0; q < batch.size; ++q)
-    scratch.interval[q] = table.coefficients(static_cast<int>(intervals[q]));
+  for (int q = 0; q < batch.padded_size(); ++q)
+    scratch.interval[q] = table.interval(static_cast<int>(intervals[q]));
 }
 
 /// sums[i] += coefficient[i][q] * values[q] over the points, n rows held in registers.
-template <int n, class D>
-HWY_INLINE void AccumulateRows(D d, const double (*coefficient)[kCapacity], int size,
-                               const double* HWY_RESTRICT values, double* HWY_RESTRICT sums,
+template <int n, class D, class T = hn::TFromD<D>>
+HWY_INLINE void AccumulateRows(D d, const T (*coefficient)[PanelScratch<T>::kStride], int size,
+                               const T* HWY_RESTRICT values, T* HWY_RESTRICT sums,
                                std::size_t stride) {
   using V = hn::Vec<D>;
   V sum[n];
@@ -98,10 +111,9 @@ HWY_INLINE void AccumulateRows(D d, const double (*coefficient)[kCapacity], int 
   for (int i = 0; i < n; ++i) hn::Store(sum[i], d, sums + i * stride);
 }
 
-template <class D>
-HWY_INLINE void Accumulate(D d, const PanelScratch& s, int function, int size,
-                           const double* HWY_RESTRICT values, double* HWY_RESTRICT sums,
-                           std::size_t stride) {
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE void Accumulate(D d, const PanelScratch<T>& s, int function, int size,
+                           const T* HWY_RESTRICT values, T* HWY_RESTRICT sums, std::size_t stride) {
   const auto rows = [&](auto count, int coefficient, int sum) {
     AccumulateRows<decltype(count)::value>(d, s.coefficient + coefficient, size, values,
                                            sums + sum * stride, stride);
@@ -131,43 +143,53 @@ HWY_INLINE void Accumulate(D d, const PanelScratch& s, int function, int size,
   }
 }
 
-void AccumulatePanel(const RadialTable& table, const KernelScales& scales, const PointBatch& batch,
-                     const Vec3& normal, PanelScratch& scratch, double* HWY_RESTRICT sums) {
-  constexpr int kNodes = RadialTable::kNodes;
-  const hn::CappedTag<double, RadialTable::kLanePadding> d;
+template <class T>
+void Accumulate(const LaneTable<T>& table, const KernelScales& scales, const PointBatch& batch,
+                const Vec3& normal, PanelScratch<T>& scratch, T* HWY_RESTRICT sums) {
+  constexpr int kNodes = LaneTable<T>::kNodes;
+  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
   using V = hn::Vec<decltype(d)>;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const std::size_t stride = table.padded_lanes();
+  const std::size_t stride = table.padded_lanes;
   Coefficients(table, scales, batch, normal, scratch);
-  alignas(64) double values[kCapacity * RadialTable::kLanePadding];
+  alignas(64) T values[kCapacity * LaneTable<T>::kLanePadding];
   for (int f = 0; f < kRadialCount; ++f) {
     for (std::size_t lane = 0; lane < stride; lane += lanes) {
       const V rest = batch.singular ? hn::Load(d, table.static_part(f) + lane) : hn::Zero(d);
-      for (int q = 0; q < batch.size; ++q) {
-        const double* HWY_RESTRICT c = scratch.interval[q] + f * kNodes * stride + lane;
-        const V t = hn::Set(d, scratch.local[q]);
-        V value = hn::Load(d, c + (kNodes - 1) * stride);
+      const std::size_t offset = f * kNodes * stride + lane;
+      // two independent Horner chains at a time
+      for (int q = 0; q < batch.size; q += 2) {
+        const T* HWY_RESTRICT c0 = scratch.interval[q] + offset;
+        const T* HWY_RESTRICT c1 = scratch.interval[q + 1] + offset;
+        const V t0 = hn::Set(d, scratch.local[q]), t1 = hn::Set(d, scratch.local[q + 1]);
+        V v0 = hn::Load(d, c0 + (kNodes - 1) * stride),
+          v1 = hn::Load(d, c1 + (kNodes - 1) * stride);
 #pragma GCC unroll 8
-        for (int degree = kNodes - 2; degree >= 0; --degree)
-          value = hn::MulAdd(value, t, hn::Load(d, c + degree * stride));
-        hn::Store(hn::Sub(value, rest), d, values + q * lanes);
+        for (int degree = kNodes - 2; degree >= 0; --degree) {
+          v0 = hn::MulAdd(v0, t0, hn::Load(d, c0 + degree * stride));
+          v1 = hn::MulAdd(v1, t1, hn::Load(d, c1 + degree * stride));
+        }
+        hn::Store(hn::Sub(v0, rest), d, values + q * lanes);
+        hn::Store(hn::Sub(v1, rest), d, values + (q + 1) * lanes);
       }
       Accumulate(d, scratch, f, batch.size, values, sums + lane, stride);
     }
   }
 }
 
-void AddPanel(const double* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
-              const PanelTarget& target) {
-  const hn::CappedTag<double, RadialTable::kLanePadding> d;
+template <class T>
+void Add(const T* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
+         const PanelTarget<T>& target) {
+  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
   using V = hn::Vec<decltype(d)>;
   const std::size_t stride = padded_lanes;
-  const V normal[3] = {hn::Set(d, n[0]), hn::Set(d, n[1]), hn::Set(d, n[2])};
+  const V normal[3] = {hn::Set(d, static_cast<T>(n[0])), hn::Set(d, static_cast<T>(n[1])),
+                       hn::Set(d, static_cast<T>(n[2]))};
   constexpr int kPair[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
   for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
     const auto sum = [&](int row) { return hn::Load(d, sums + row * stride + lane); };
-    const auto add = [&](double* block, int entry, V value) {
-      double* HWY_RESTRICT at = block + entry * stride + lane;
+    const auto add = [&](T* block, int entry, V value) {
+      T* HWY_RESTRICT at = block + entry * stride + lane;
       hn::Store(hn::Add(hn::Load(d, at), value), d, at);
     };
     for (int a = 0; a < 3; ++a) {
@@ -210,6 +232,25 @@ void AddPanel(const double* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
   }
 }
 
+void AccumulateDouble(const LaneTable<double>& table, const KernelScales& scales,
+                      const PointBatch& batch, const Vec3& normal, PanelScratch<double>& scratch,
+                      double* HWY_RESTRICT sums) {
+  Accumulate(table, scales, batch, normal, scratch, sums);
+}
+void AccumulateFloat(const LaneTable<float>& table, const KernelScales& scales,
+                     const PointBatch& batch, const Vec3& normal, PanelScratch<float>& scratch,
+                     float* HWY_RESTRICT sums) {
+  Accumulate(table, scales, batch, normal, scratch, sums);
+}
+void AddDouble(const double* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
+               const PanelTarget<double>& target) {
+  Add(sums, n, padded_lanes, target);
+}
+void AddFloat(const float* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
+              const PanelTarget<float>& target) {
+  Add(sums, n, padded_lanes, target);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace bem
 HWY_AFTER_NAMESPACE();
@@ -217,8 +258,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bem {
 
-HWY_EXPORT(AccumulatePanel);
-HWY_EXPORT(AddPanel);
+HWY_EXPORT(AccumulateDouble);
+HWY_EXPORT(AccumulateFloat);
+HWY_EXPORT(AddDouble);
+HWY_EXPORT(AddFloat);
 
 KernelScales::KernelScales(double shear_modulus, double shear_speed, double dt)
     : displacement(1 / (4 * kPi * shear_modulus)),
@@ -226,20 +269,32 @@ KernelScales::KernelScales(double shear_modulus, double shear_speed, double dt)
       body_force(1 / (4 * kPi * shear_speed * shear_speed)),
       lam_per_distance(1 / (shear_speed * dt)) {}
 
-void accumulate_panel(const RadialTable& table, const KernelScales& scales, const PointBatch& batch,
-                      const Vec3& normal, PanelScratch& scratch, double* sums) {
-  HWY_DYNAMIC_DISPATCH(AccumulatePanel)(table, scales, batch, normal, scratch, sums);
+void accumulate_panel(const LaneTable<double>& table, const KernelScales& scales,
+                      const PointBatch& batch, const Vec3& normal, PanelScratch<double>& scratch,
+                      double* sums) {
+  HWY_DYNAMIC_DISPATCH(AccumulateDouble)(table, scales, batch, normal, scratch, sums);
+}
+
+void accumulate_panel(const LaneTable<float>& table, const KernelScales& scales,
+                      const PointBatch& batch, const Vec3& normal, PanelScratch<float>& scratch,
+                      float* sums) {
+  HWY_DYNAMIC_DISPATCH(AccumulateFloat)(table, scales, batch, normal, scratch, sums);
 }
 
 void add_panel(const double* sums, const Vec3& normal, int padded_lanes,
-               const PanelTarget& target) {
-  HWY_DYNAMIC_DISPATCH(AddPanel)(sums, normal, padded_lanes, target);
+               const PanelTarget<double>& target) {
+  HWY_DYNAMIC_DISPATCH(AddDouble)(sums, normal, padded_lanes, target);
 }
 
-void accumulate_panel_reference(const RadialTable& table, const KernelScales& scales,
+void add_panel(const float* sums, const Vec3& normal, int padded_lanes,
+               const PanelTarget<float>& target) {
+  HWY_DYNAMIC_DISPATCH(AddFloat)(sums, normal, padded_lanes, target);
+}
+
+void accumulate_panel_reference(const LaneTable<double>& table, const KernelScales& scales,
                                 const PointBatch& batch, const Vec3& normal, double* sums) {
   constexpr int kPairs[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
-  const int stride = table.padded_lanes();
+  const int stride = table.padded_lanes;
   std::vector<double> values(static_cast<std::size_t>(kRadialCount) * stride);
   for (int q = 0; q < batch.size; ++q) {
     const Vec3 y(batch.r[0][q], batch.r[1][q], batch.r[2][q]);

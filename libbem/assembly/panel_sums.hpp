@@ -29,32 +29,43 @@ struct KernelScales {
 };
 
 /// Working memory of one thread.
+template <class T>
 struct PanelScratch {
   static constexpr int kCoefficients = 59;
-  alignas(64) double coefficient[kCoefficients][PointBatch::kCapacity];
-  alignas(64) double local[PointBatch::kCapacity];
-  const double* interval[PointBatch::kCapacity];
+  /// Not a power of two, so that the rows fall into different cache sets.
+  static constexpr int kStride = PointBatch::kCapacity + 64 / sizeof(T);
+  alignas(64) T coefficient[kCoefficients][kStride];
+  alignas(64) T local[PointBatch::kCapacity];
+  const T* interval[PointBatch::kCapacity];
 };
 
 /// sums[PanelSum][padded lane] += the contribution of a batch of points. At singular batches the
 /// static parts of P, Q, S are left out. Runs on the widest vector unit of the machine.
-void accumulate_panel(const RadialTable& table, const KernelScales& scales, const PointBatch& batch,
-                      const Vec3& normal, PanelScratch& scratch, double* sums);
+void accumulate_panel(const LaneTable<double>& table, const KernelScales& scales,
+                      const PointBatch& batch, const Vec3& normal, PanelScratch<double>& scratch,
+                      double* sums);
+void accumulate_panel(const LaneTable<float>& table, const KernelScales& scales,
+                      const PointBatch& batch, const Vec3& normal, PanelScratch<float>& scratch,
+                      float* sums);
 
 /// The same in plain scalar code, for tests.
-void accumulate_panel_reference(const RadialTable& table, const KernelScales& scales,
+void accumulate_panel_reference(const LaneTable<double>& table, const KernelScales& scales,
                                 const PointBatch& batch, const Vec3& normal, double* sums);
 
 /// Row blocks that a panel adds to: 3x3 blocks [entry][padded lane] of the three vertices of the
 /// triangle (h: 9 entries, g: 6 entries xx xy xz yy yz zz) and of the body-force columns d and l.
+template <class T>
 struct PanelTarget {
-  double* h[3];
-  double* g[3];
-  double* d;
-  double* l;
+  T* h[3];
+  T* g[3];
+  T* d;
+  T* l;
 };
 
 /// Multiplies the normal in and adds the panel's 3x3 blocks to the row.
-void add_panel(const double* sums, const Vec3& normal, int padded_lanes, const PanelTarget& target);
+void add_panel(const double* sums, const Vec3& normal, int padded_lanes,
+               const PanelTarget<double>& target);
+void add_panel(const float* sums, const Vec3& normal, int padded_lanes,
+               const PanelTarget<float>& target);
 
 }  // namespace bem

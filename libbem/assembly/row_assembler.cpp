@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace bem {
 
@@ -23,6 +24,7 @@ RowAssembler::RowAssembler(const TriangleMesh& mesh, double extent, const Discre
       discretisation_(d),
       table_(d.scheme, d.material.kappa(), 1.000001 * extent / (d.material.shear_speed() * d.dt),
              d.history_length, std::min(1e-10, 1e-3 * d.quadrature_tolerance)),
+      far_table_(table_.single_precision()),
       scales_(d.material.shear_modulus, d.material.shear_speed(), d.dt),
       quadrature_(mesh, d.quadrature_tolerance,
                   largest_symbol(d.scheme) / (d.material.shear_speed() * d.dt)),
@@ -31,24 +33,68 @@ RowAssembler::RowAssembler(const TriangleMesh& mesh, double extent, const Discre
 }
 
 double RowAssembler::assemble(int vertex, bool fix_translation, Workspace& work,
-                              BlockRow& row) const {
-  const std::size_t stride = table_.padded_lanes();
-  const std::size_t n = mesh_.vertices.size();
-  row.padded_lanes = table_.padded_lanes();
-  row.h.assign(n * 9 * stride, 0.0);
-  row.g.assign(n * 6 * stride, 0.0);
-  row.d.assign(9 * stride, 0.0);
-  row.q.assign(9 * stride, 0.0);
-  work.sums.resize(kPanelSums * stride);
+                              BlockRow<double>& row) const {
+  work.sums.resize(static_cast<std::size_t>(kPanelSums) * table_.lanes().padded_lanes);
+  return assemble_row(vertex, fix_translation, work, row, table_.lanes());
+}
 
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const int triangle = static_cast<int>(t);
+double RowAssembler::assemble(int vertex, bool fix_translation, Workspace& work,
+                              BlockRow<float>& row) const {
+  work.sums.resize(static_cast<std::size_t>(kPanelSums) * table_.lanes().padded_lanes);
+  work.far_sums.resize(static_cast<std::size_t>(kPanelSums) * far_table_.padded_lanes);
+  return assemble_row(vertex, fix_translation, work, row, far_table_);
+}
+
+void RowAssembler::sum_panel(int vertex, int triangle, Workspace& work,
+                             AlignedVector<double>& sums) const {
+  std::fill(sums.begin(), sums.end(), 0.0);
+  quadrature_.for_each_batch(vertex, triangle, work.batch, [&](const PointBatch& batch) {
+    accumulate_panel(table_.lanes(), scales_, batch, quadrature_.normal(triangle), work.scratch,
+                     sums.data());
+  });
+}
+
+void RowAssembler::sum_panel(int vertex, int triangle, Workspace& work,
+                             AlignedVector<float>& sums) const {
+  bool near = false;
+  quadrature_.for_each_batch(vertex, triangle, work.batch, [&](const PointBatch& batch) {
     const Vec3& normal = quadrature_.normal(triangle);
-    std::fill(work.sums.begin(), work.sums.end(), 0.0);
-    quadrature_.for_each_batch(vertex, triangle, work.batch, [&](const PointBatch& batch) {
-      accumulate_panel(table_, scales_, batch, normal, work.scratch, work.sums.data());
-    });
-    PanelTarget target;
+    if (batch.far) {
+      std::fill(sums.begin(), sums.end(), 0.0f);
+      accumulate_panel(far_table_, scales_, batch, normal, work.far_scratch, sums.data());
+    } else {
+      if (!near) std::fill(work.sums.begin(), work.sums.end(), 0.0);
+      near = true;
+      accumulate_panel(table_.lanes(), scales_, batch, normal, work.scratch, work.sums.data());
+    }
+  });
+  if (!near) return;
+  for (int sum = 0; sum < kPanelSums; ++sum)
+    for (int lane = 0; lane < far_table_.lanes; ++lane)
+      sums[sum * far_table_.padded_lanes + lane] =
+          static_cast<float>(work.sums[sum * table_.lanes().padded_lanes + lane]);
+}
+
+template <class T>
+double RowAssembler::assemble_row(int vertex, bool fix_translation, Workspace& work,
+                                  BlockRow<T>& row, const LaneTable<T>& lanes) const {
+  const std::size_t stride = lanes.padded_lanes;
+  const std::size_t n = mesh_.vertices.size();
+  row.padded_lanes = lanes.padded_lanes;
+  row.h.assign(n * 9 * stride, T(0));
+  row.g.assign(n * 6 * stride, T(0));
+  row.d.assign(9 * stride, T(0));
+  row.q.assign(9 * stride, T(0));
+  auto& sums = [&work]() -> auto& {
+    if constexpr (std::is_same_v<T, float>)
+      return work.far_sums;
+    else
+      return work.sums;
+  }
+  ();
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    sum_panel(vertex, static_cast<int>(t), work, sums);
+    PanelTarget<T> target;
     for (int a = 0; a < 3; ++a) {
       const std::size_t j = mesh_.triangles[t][a];
       target.h[a] = &row.h[j * 9 * stride];
@@ -56,7 +102,7 @@ double RowAssembler::assemble(int vertex, bool fix_translation, Workspace& work,
     }
     target.d = row.d.data();
     target.l = row.q.data();
-    add_panel(work.sums.data(), normal, table_.padded_lanes(), target);
+    add_panel(sums.data(), quadrature_.normal(static_cast<int>(t)), lanes.padded_lanes, target);
   }
 
   // q* = l* + d* [x - xbar]^T
@@ -65,30 +111,34 @@ double RowAssembler::assemble(int vertex, bool fix_translation, Workspace& work,
     for (int j = 0; j < 3; ++j)
       for (int k = 0; k < 3; ++k)
         for (std::size_t lane = 0; lane < stride; ++lane)
-          row.q[(3 * i + j) * stride + lane] += row.d[(3 * i + k) * stride + lane] * arm(k, j);
+          row.q[(3 * i + j) * stride + lane] +=
+              static_cast<T>(row.d[(3 * i + k) * stride + lane] * arm(k, j));
 
   for (const auto& [j, block] : fans_.static_blocks(vertex, table_.kappa()))
     for (int e = 0; e < 9; ++e)
       for (int lane : table_.static_lanes())
-        row.h[(static_cast<std::size_t>(j) * 9 + e) * stride + lane] += block(e / 3, e % 3);
+        row.h[(static_cast<std::size_t>(j) * 9 + e) * stride + lane] +=
+            static_cast<T>(block(e / 3, e % 3));
 
   return fix_translation ? fix_own_block(vertex, row) : 0;
 }
 
-double RowAssembler::fix_own_block(int vertex, BlockRow& row) const {
-  const std::size_t stride = table_.padded_lanes();
+template <class T>
+double RowAssembler::fix_own_block(int vertex, BlockRow<T>& row) const {
+  const std::size_t stride = row.padded_lanes;
   const std::size_t size = 9 * stride;
-  std::vector<double> sum(size, 0.0), wanted(stride, 0.0);
+  std::vector<double> sum(size, 0.0), body(stride), wanted(stride, 0.0);
   for (std::size_t j = 0; j < mesh_.vertices.size(); ++j)
     for (std::size_t e = 0; e < size; ++e) sum[e] += row.h[j * size + e];
   double largest = 0;
-  double* own = &row.h[vertex * size];
+  T* own = &row.h[vertex * size];
   for (int e = 0; e < 9; ++e) {
-    translation_row_sums(discretisation_.scheme, layout(), discretisation_.dt, &row.d[e * stride],
+    std::copy_n(&row.d[e * stride], stride, body.begin());
+    translation_row_sums(discretisation_.scheme, layout(), discretisation_.dt, body.data(),
                          wanted.data());
     for (int lane = 0; lane < layout().count(); ++lane) {
       const double change = wanted[lane] - sum[e * stride + lane];
-      own[e * stride + lane] += change;
+      own[e * stride + lane] += static_cast<T>(change);
       largest = std::max(largest, std::abs(change));
     }
   }

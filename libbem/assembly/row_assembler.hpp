@@ -9,15 +9,16 @@ namespace bem {
 
 /// One block row of all lag matrices: everything that collocation vertex i contributes, lane by
 /// lane (LaneLayout). Entries of 3x3 blocks are row-major; g is symmetric: xx xy xz yy yz zz.
+template <class T>
 struct BlockRow {
   int padded_lanes = 0;
-  AlignedVector h;  ///< [vertex][9][padded lane]
-  AlignedVector g;  ///< [vertex][6][padded lane]
-  AlignedVector d;  ///< [9][padded lane]
-  AlignedVector q;  ///< [9][padded lane]
+  AlignedVector<T> h;  ///< [vertex][9][padded lane]
+  AlignedVector<T> g;  ///< [vertex][6][padded lane]
+  AlignedVector<T> d;  ///< [9][padded lane]
+  AlignedVector<T> q;  ///< [9][padded lane]
 
-  const double* h_block(int vertex) const { return &h[std::size_t(vertex) * 9 * padded_lanes]; }
-  const double* g_block(int vertex) const { return &g[std::size_t(vertex) * 6 * padded_lanes]; }
+  const T* h_block(int vertex) const { return &h[std::size_t(vertex) * 9 * padded_lanes]; }
+  const T* g_block(int vertex) const { return &g[std::size_t(vertex) * 6 * padded_lanes]; }
 };
 
 /// What determines the matrices of a body besides its mesh.
@@ -36,18 +37,24 @@ class RowAssembler {
  public:
   struct Workspace {
     PointBatch batch;
-    PanelScratch scratch;
-    AlignedVector sums;
+    PanelScratch<double> scratch;
+    PanelScratch<float> far_scratch;
+    AlignedVector<double> sums;
+    AlignedVector<float> far_sums;
   };
 
   /// `extent`: largest distance between two vertices (mesh/extent.hpp) [m].
   RowAssembler(const TriangleMesh& mesh, double extent, const Discretisation& discretisation);
 
   /// Row of collocation vertex `vertex`; with `fix_translation` its own block is set so that rigid
-  /// translation is exact for every lag (M43), whatever the quadrature. Returns the
-  /// largest entry of that change (the free term is about 1/2): the row-sum residual of the
-  /// quadrature.
-  double assemble(int vertex, bool fix_translation, Workspace& workspace, BlockRow& row) const;
+  /// translation is exact for every lag (M43), whatever the quadrature. Returns the largest entry
+  /// of that change (the free term is about 1/2): the row-sum residual of the quadrature. In single
+  /// precision far panels are computed in single precision, near and singular ones in double: about
+  /// 1e-7 of the static kernels, at half the cost.
+  double assemble(int vertex, bool fix_translation, Workspace& workspace,
+                  BlockRow<double>& row) const;
+  double assemble(int vertex, bool fix_translation, Workspace& workspace,
+                  BlockRow<float>& row) const;
 
   const RadialTable& table() const { return table_; }
   const LaneLayout& layout() const { return table_.layout(); }
@@ -55,11 +62,18 @@ class RowAssembler {
   const Discretisation& discretisation() const { return discretisation_; }
 
  private:
-  double fix_own_block(int vertex, BlockRow& row) const;
+  template <class T>
+  double assemble_row(int vertex, bool fix_translation, Workspace& workspace, BlockRow<T>& row,
+                      const LaneTable<T>& lanes) const;
+  void sum_panel(int vertex, int triangle, Workspace& work, AlignedVector<double>& sums) const;
+  void sum_panel(int vertex, int triangle, Workspace& work, AlignedVector<float>& sums) const;
+  template <class T>
+  double fix_own_block(int vertex, BlockRow<T>& row) const;
 
   const TriangleMesh& mesh_;
   Discretisation discretisation_;
   RadialTable table_;
+  LaneTable<float> far_table_;
   KernelScales scales_;
   PanelQuadrature quadrature_;
   VertexFans fans_;

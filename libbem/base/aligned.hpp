@@ -33,6 +33,7 @@ struct AlignedAllocator {
   }
 };
 
-using AlignedVector = std::vector<double, AlignedAllocator<double>>;
+template <class T>
+using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
 }  // namespace bem

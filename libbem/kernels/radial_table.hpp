@@ -8,14 +8,43 @@
 
 namespace bem {
 
-/// All convolution quadrature weights of all radial functions as piecewise polynomials of
-/// lam = r/(c2 dt): one look-up and one Horner scheme per quadrature point give every lag at once.
-/// The last lag carries the sum of all later weights (M25).
+/// Piecewise polynomials of lam = r/(c2 dt) for all radial functions and all lanes: one look-up and
+/// one Horner scheme per quadrature point give every lag at once. T is double, or float for far
+/// pairs at moderate tolerances.
+template <class T>
+struct LaneTable {
+  static constexpr int kNodes = 8;                     ///< polynomial coefficients per interval
+  static constexpr int kLanePadding = 64 / sizeof(T);  ///< lanes fill whole cache lines
+
+  int lanes = 0;
+  int padded_lanes = 0;
+  int intervals = 0;
+  double intervals_per_lam = 0;
+  AlignedVector<T> coefficients;  ///< [interval][function][degree][padded lane]
+  AlignedVector<T> static_parts;  ///< [function][padded lane]: static P, Q, S, see static_part()
+
+  void set_lanes(int count) {
+    lanes = count;
+    padded_lanes = (count + kLanePadding - 1) / kLanePadding * kLanePadding;
+  }
+  std::size_t interval_size() const {
+    return static_cast<std::size_t>(kRadialCount) * kNodes * padded_lanes;
+  }
+  /// Coefficients of an interval, in its local variable in [-1, 1].
+  const T* interval(int index) const { return coefficients.data() + index * interval_size(); }
+  /// Static part of P, Q or S by lane (in the real lanes of lag 0; zero for the other functions):
+  /// what the singular integrals treat analytically.
+  const T* static_part(int function) const {
+    return static_parts.data() + static_cast<std::size_t>(function) * padded_lanes;
+  }
+  /// Interpolated values out[function*padded_lanes + lane].
+  void evaluate(double lam, double* out) const;
+};
+
+/// All convolution quadrature weights of all radial functions, tabulated. The last lag carries the
+/// sum of all later weights (M25).
 class RadialTable {
  public:
-  static constexpr int kNodes = 8;        ///< polynomial coefficients per interval
-  static constexpr int kLanePadding = 8;  ///< lanes are padded to a multiple of this
-
   /// Tabulates 0 <= lam <= lam_max to an interpolation error <= tolerance (of values of order one;
   /// checked against direct evaluation between the nodes). Cost: a few thousand short transforms.
   RadialTable(const Scheme& scheme, double kappa, double lam_max, int last_lag,
@@ -23,26 +52,9 @@ class RadialTable {
 
   const LaneLayout& layout() const { return layout_; }
   double kappa() const { return kappa_; }
-  int intervals() const { return intervals_; }
-  int padded_lanes() const { return padded_lanes_; }
-  double intervals_per_lam() const { return intervals_per_lam_; }
-
-  /// Coefficients [function][degree][padded lane] of an interval, in its local variable in [-1, 1].
-  const double* coefficients(int interval) const {
-    return coefficients_.data() + static_cast<std::size_t>(interval) * interval_size();
-  }
-  std::size_t interval_size() const {
-    return static_cast<std::size_t>(kRadialCount) * kNodes * padded_lanes_;
-  }
-
-  /// Interpolated values out[function*padded_lanes() + lane].
-  void evaluate(double lam, double* out) const;
-
-  /// Static part of P, Q or S by padded lane (in the real lanes of lag 0; zero for other
-  /// functions): what the singular integrals treat analytically.
-  const double* static_part(int function) const {
-    return static_parts_.data() + static_cast<std::size_t>(function) * padded_lanes_;
-  }
+  const LaneTable<double>& lanes() const { return lanes_; }
+  /// The same rounded to single precision.
+  LaneTable<float> single_precision() const;
   /// Lanes of lag 0 that hold real parts.
   const std::vector<int>& static_lanes() const { return static_lanes_; }
 
@@ -53,10 +65,7 @@ class RadialTable {
 
   LaneLayout layout_;
   double kappa_;
-  int padded_lanes_;
-  int intervals_ = 0;
-  double intervals_per_lam_ = 0;
-  AlignedVector coefficients_, static_parts_;
+  LaneTable<double> lanes_;
   std::vector<int> static_lanes_;
 };
 

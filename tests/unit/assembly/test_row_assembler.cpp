@@ -24,7 +24,7 @@ Lags assemble_all(const TriangleMesh& mesh, const Discretisation& d, bool fix) {
   out.d.assign(lanes, Eigen::MatrixXd::Zero(3 * n, 3));
   out.q = out.d;
   RowAssembler::Workspace work;
-  BlockRow row;
+  BlockRow<double> row;
   constexpr int kSymmetric[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
   for (int i = 0; i < n; ++i) {
     out.residual = std::max(out.residual, assembler.assemble(i, fix, work, row));
@@ -125,5 +125,34 @@ TEST_CASE("the own-block fix makes rigid translation exact and changes little") 
     const Eigen::MatrixXcd r = lane0(fixed.h) * rotations(mesh) + s * s * lane0(fixed.q);
     CHECK(t.cwiseAbs().maxCoeff() < 1e-12);
     CHECK(r.cwiseAbs().maxCoeff() < 1e-5);
+  }
+}
+
+TEST_CASE("rows in single precision agree with double precision to 1e-6 of the row") {
+  const TriangleMesh mesh = centred(star(3, 1));
+  Discretisation d;
+  d.material = material(1.3, 2.1, 0.4);
+  d.dt = 0.5;
+  d.history_length = 7;
+  const RowAssembler assembler(mesh, diameter(mesh.vertices), d);
+  RowAssembler::Workspace work;
+  BlockRow<double> exact;
+  BlockRow<float> row;
+  for (int vertex : {0, 100, 641}) {
+    assembler.assemble(vertex, true, work, exact);
+    assembler.assemble(vertex, true, work, row);
+    double h = 0, g = 0, largest_g = 0;
+    for (std::size_t j = 0; j < mesh.vertices.size(); ++j)
+      for (int e = 0; e < 9; ++e)
+        for (int lane = 0; lane < assembler.layout().count(); ++lane) {
+          const int i = e * exact.padded_lanes + lane, k = e * row.padded_lanes + lane;
+          h = std::max(h, std::abs(exact.h_block(j)[i] - double(row.h_block(j)[k])));
+          if (e >= 6) continue;
+          g = std::max(g, std::abs(exact.g_block(j)[i] - double(row.g_block(j)[k])));
+          largest_g = std::max(largest_g, std::abs(exact.g_block(j)[i]));
+        }
+    CHECK(h < 1e-6);
+    CHECK(h > 0);
+    CHECK(g < 1e-6 * largest_g);
   }
 }

@@ -10,16 +10,16 @@ namespace {
 double worst_difference(const RadialTable& table, const Scheme& scheme, double lam_max) {
   const RadialWeights direct(scheme, table.kappa(), table.layout().last_lag);
   const int lanes = table.layout().count();
-  std::vector<double> exact(kRadialCount * lanes), value(kRadialCount * table.padded_lanes());
+  std::vector<double> exact(kRadialCount * lanes), value(kRadialCount * table.lanes().padded_lanes);
   double worst = 0;
   for (int i = 0; i <= 777; ++i) {
     const double lam = lam_max * i / 777;
     direct.evaluate(lam, exact.data());
-    table.evaluate(lam, value.data());
+    table.lanes().evaluate(lam, value.data());
     for (int f = 0; f < kRadialCount; ++f)
       for (int lane = 0; lane < lanes; ++lane)
-        worst = std::max(
-            worst, std::abs(value[f * table.padded_lanes() + lane] - exact[f * lanes + lane]));
+        worst = std::max(worst, std::abs(value[f * table.lanes().padded_lanes + lane] -
+                                         exact[f * lanes + lane]));
   }
   return worst;
 }
@@ -33,7 +33,7 @@ TEST_CASE("tables interpolate every scheme to 1e-10 of the static kernel") {
         const Scheme scheme = Scheme::parse(name);
         const double kappa = (1 - 2 * nu) / (2 * (1 - nu));
         const RadialTable table(scheme, kappa, lam, default_history_length(scheme, lam));
-        INFO(name << ", nu " << nu << ", lam " << lam << ", intervals " << table.intervals());
+        INFO(name << ", nu " << nu << ", lam " << lam << ", intervals " << table.lanes().intervals);
         CHECK(worst_difference(table, scheme, lam) < 2e-10);
       }
 }
