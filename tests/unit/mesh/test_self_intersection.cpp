@@ -49,6 +49,7 @@ TEST_CASE("two triangles cross or do not") {
 
 TEST_CASE("triangles that touch do not cross") {
   CHECK_FALSE(crosses_flat({0.2, 0.2, 0}, {0.2, 0.2, 1}, {1, 1, 1}));      // corner on the face
+  CHECK_FALSE(crosses_flat({0.1, 0.1, 0}, {0.4, 0.1, 0}, {0.2, 0.2, 1}));  // edge on the face
   CHECK_FALSE(crosses_flat({0, 0, 0}, {1, 0, 0}, {0.5, 0, 1}));            // a common edge
   CHECK_FALSE(crosses_flat({0.5, 0, -1}, {0.5, 0, 1}, {0.5, -1, 0}));      // edge through edge
   CHECK_FALSE(crosses_flat({0.1, 0.1, 0}, {0.5, 0.1, 0}, {0.1, 0.5, 0}));  // in one plane
