@@ -31,20 +31,27 @@ bool contains(const BoundingBox& box, const Vec3& p) {
   return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
 }
 
-/// Is `inner` within `outer`? One vertex decides, unless it lies on the other surface (parts that
-/// touch): then a few more are asked, and parts that only touch count as side by side.
+/// A point just below the surface of the component, in the region that it encloses.
+Vec3 inner_point(const TriangleMesh& nodes, const Component& component, int t) {
+  const Triangle& corners = nodes.triangles[t];
+  const double depth = (component.volume > 0 ? 1e-6 : -1e-6) * longest_edge(nodes, corners);
+  return triangle_centroid(nodes, corners) - depth * triangle_normal(nodes, corners);
+}
+
+/// Is `inner` within `outer`? Points just below the surface of `inner` are asked instead of its
+/// vertices, which lie in both surfaces where the parts touch; several of them, by majority,
+/// because parts may also overlap.
 bool lies_within(const TriangleMesh& nodes, const Component& inner, const Component& outer) {
-  constexpr std::size_t kSamples = 16;
-  const std::size_t n = inner.triangles.size();
-  for (std::size_t s = 0; s < std::min(n, kSamples); ++s) {
-    const int t = inner.triangles[s * n / std::min(n, kSamples)];
-    const Vec3& p = nodes.vertices[nodes.triangles[t][0]];
-    if (!contains(outer.box, p)) return false;
-    const double turns = std::abs(winding_number(nodes, outer.triangles, p));
-    if (turns < 0.25) return false;
-    if (turns > 0.75) return true;
+  constexpr std::size_t kVotes = 5;
+  int balance = 0;
+  for (std::size_t vote = 0; vote < kVotes; ++vote) {
+    const int t = inner.triangles[vote * inner.triangles.size() / kVotes];
+    const Vec3 p = inner_point(nodes, inner, t);
+    const bool inside =
+        contains(outer.box, p) && std::abs(winding_number(nodes, outer.triangles, p)) > 0.5;
+    balance += inside ? 1 : -1;
   }
-  return false;
+  return balance > 0;
 }
 
 std::string first_triangle(const TriangleMesh& input, const Component& component) {

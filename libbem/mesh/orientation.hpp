@@ -17,8 +17,8 @@ struct Component {
 };
 
 /// How often the triangles wind around `point`: 1 inside and 0 outside of a closed surface with
-/// outward normals, -1 inside one with inward normals, fractions on the surface. O(triangles).
-/// Solid angle of one triangle after van Oosterom and Strackee (1983).
+/// outward normals, -1 inside one with inward normals, anything between on the surface.
+/// O(triangles). Solid angle of one triangle after van Oosterom and Strackee (1983).
 double winding_number(const TriangleMesh& mesh, const std::vector<int>& triangles,
                       const Vec3& point);
 

@@ -1,0 +1,77 @@
+#include "mesh/obj_reader.hpp"
+#include "mesh_test.hpp"
+
+using namespace bem;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+std::string parse_error(const std::string& text) {
+  return test::error_message(ErrorCode::invalid_input, [&] { parse_obj(text, "a.obj"); });
+}
+
+const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+
+}  // namespace
+
+TEST_CASE("vertices and faces keep their order and all digits") {
+  const TriangleMesh mesh = parse_obj(
+      "v 0.1 -2e-3 +.5\nv 0.30000000000000004 0 1e300\nv 1 2 3\nf 3 1 2\nf 1 2 3\n", "a.obj");
+  REQUIRE(mesh.vertices.size() == 3);
+  CHECK(mesh.vertices[0] == Vec3(0.1, -2e-3, 0.5));
+  CHECK(mesh.vertices[1] == Vec3(0.30000000000000004, 0, 1e300));
+  CHECK(mesh.triangles == std::vector<Triangle>{{2, 0, 1}, {0, 1, 2}});
+}
+
+TEST_CASE("every way of writing a face corner is understood") {
+  for (const std::string face :
+       {"f 1 2 3", "f 1/4 2/5 3/6", "f 1//7 2//7 3//7", "f 1/4/7 2/5/7 3/6/7", "f -4 -3 -2",
+        "f -4/-1 -3/-1 -2/-1", "f\t1  2 3 ", "f 1/ 2/ 3/", "f 1 2 3 # comment", "f 1 \\\n 2 3",
+        "f 1 2 3\r"})
+    CHECK(parse_obj(kVertices + face + "\n", "a.obj").triangles ==
+          std::vector<Triangle>{{0, 1, 2}});
+}
+
+TEST_CASE("polygons become fans, other keywords are ignored") {
+  const TriangleMesh mesh =
+      parse_obj("\xEF\xBB\xBFmtllib x\no thing\nvt 0 0\nvn 0 0 1\nusemtl m\n" + kVertices +
+                    "v 1 1 0 0.5 0.5 0.5\ng a\ns 1\nl 1 2\nf 1 2 5 3 4",
+                "a.obj");
+  CHECK(mesh.vertices.size() == 5);
+  CHECK(mesh.vertices[4] == Vec3(1, 1, 0));
+  CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 4}, {0, 4, 2}, {0, 2, 3}});
+}
+
+TEST_CASE("a face may refer to vertices further down") {
+  CHECK(parse_obj("f 1 2 3\n" + kVertices, "a.obj").triangles.size() == 1);
+}
+
+TEST_CASE("numbers that cannot be parsed are shown with their line") {
+  CHECK_THAT(parse_error("\nv 0 zero 0"), StartsWith("a.obj:2:") && Contains("\"zero\""));
+  CHECK_THAT(parse_error("v 0 1.5x 0"), StartsWith("a.obj:1:") && Contains("\"1.5x\""));
+  CHECK_THAT(parse_error("v 0 +-1 0"), Contains("\"+-1\""));
+  CHECK_THAT(parse_error("v 0 1e999 0"), Contains("\"1e999\"") && Contains("range"));
+  CHECK_THAT(parse_error("v 0 0"), StartsWith("a.obj:1:") && Contains("three coordinates"));
+  CHECK_THAT(parse_error(kVertices + "f 1 b 3"), StartsWith("a.obj:5:") && Contains("\"b\""));
+  CHECK_THAT(parse_error(kVertices + "f 1 2.5 3"), Contains("\"2.5\""));
+  CHECK_THAT(parse_error(kVertices + "f 1 2/1/1/1 3"), Contains("\"2/1/1/1\""));
+  CHECK_THAT(parse_error(kVertices + "f 1 99999999999 3"), Contains("99999999999"));
+  CHECK_THAT(parse_error(kVertices + "f 1 \\\n2 3\nf 1 2"),
+             StartsWith("a.obj:7:") && Contains("at least three"));
+}
+
+TEST_CASE("non-finite coordinates are counted, the first is named") {
+  const std::string message = parse_error("v 0 0 0\nv nan 0 0\nv 0 0 -inf\nf 1 2 3");
+  CHECK_THAT(message, StartsWith("a.obj:2:") && Contains("non-finite") &&
+                          Contains("vertex 1 at (nan, 0, 0)") && Contains("2 such vertices"));
+}
+
+TEST_CASE("indices out of range are counted, the first is named") {
+  for (const std::string corner : {"5", "0", "-5", "-2147483648"}) {
+    const std::string message =
+        parse_error(kVertices + "f 1 2 3\nf 1 2 " + corner + "\nf 1 2 4\nf 2 3 " + corner);
+    CHECK_THAT(message, StartsWith("a.obj:6:") && Contains("index out of range") &&
+                            Contains("triangle 1 ") && Contains("2 such triangles"));
+  }
+}
