@@ -30,7 +30,7 @@ TractionSpec read_traction(const JsonValue& value) {
   if (const auto follow = reader.optional("follow")) {
     traction.follow = follow->boolean();
     if (pressure && !traction.follow)
-      throw follow->unexpected("true, because a pressure turns with the body,");
+      throw follow->unexpected("true, because a pressure turns with the body");
   }
   reader.finish();
   return traction;

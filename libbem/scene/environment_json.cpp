@@ -18,6 +18,7 @@ PlaneObstacle read_plane(const JsonValue& value) {
 std::size_t body_named(const JsonValue& value, const std::vector<BodySpec>& bodies) {
   const std::string name = value.text();
   std::vector<std::string> names;
+  names.reserve(bodies.size());
   for (const BodySpec& body : bodies) names.push_back(body.name);
   const auto match = std::find(names.begin(), names.end(), name);
   if (match != names.end()) return static_cast<std::size_t>(match - names.begin());

@@ -132,9 +132,10 @@ class JsonBuilder final : public nlohmann::json_sax<Json> {
     cursor_.skip_token();
     key_ = store(value);
     if (!open_.back().keys.insert(document_.strings_[key_]).second)
-      throw error_at({document_.file_, static_cast<int>(key_line_), static_cast<int>(key_column_),
-                      next_pointer()},
-                     "the key " + in_quotes(value) + " appears twice in one object");
+      throw error_at(
+          {document_.file_, static_cast<int>(key_line_), static_cast<int>(key_column_),
+           next_pointer()},
+          "the key " + in_quotes(document_.strings_[key_]) + " appears twice in one object");
     return true;
   }
 

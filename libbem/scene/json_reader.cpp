@@ -7,6 +7,8 @@
 namespace bem {
 namespace {
 
+constexpr std::size_t kMinStart = 3;  // letters that a key must share with a longer one
+
 std::string format(double value) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
@@ -49,6 +51,7 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
   std::string nearest;
   std::size_t smallest = 0;
   for (const std::string& name : names) {
+    if (word.size() >= kMinStart && name.compare(0, word.size() + 1, word + '_') == 0) return name;
     const std::size_t longer = std::max(word.size(), name.size());
     const std::size_t shorter = std::min(word.size(), name.size());
     if (longer - shorter > longer / 3) continue;

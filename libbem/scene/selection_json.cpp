@@ -39,10 +39,7 @@ void read_normal(JsonReader& reader, Selection& selection) {
 Selection read_selection(const JsonValue& value) {
   Selection selection;
   selection.location = value.location();
-  if (value.kind() == JsonKind::string) {
-    value.choice({"all"});
-    return selection;
-  }
+  if (value.kind() == JsonKind::string && value.text() == "all") return selection;
   if (value.kind() != JsonKind::object)
     throw value.unexpected("a selection (\"all\" or an object)");
   JsonReader reader(value, "a selection");

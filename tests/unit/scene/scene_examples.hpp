@@ -1,0 +1,75 @@
+#pragma once
+
+#include "base/error.hpp"
+#include "scene/scene_json.hpp"
+
+#include <string>
+
+namespace bem::test {
+
+/// A scene that uses every key of the format.
+inline const std::string& full_scene() {
+  static const std::string text = R"json({ "version": 1,
+  "time_step": 0.003, "duration": 1.5,
+  "gravity": [0, -9.81, 0],
+  "bodies": [
+    { "name": "bunny", "archive": "bunny.bem",
+      "position": [0, 0.3, 0], "rotation": {"axis": [0, 2, 0], "angle_deg": 30},
+      "velocity": [1.5, 0, 0], "angular_velocity": [0, 0, 4],
+      "frame": "moving",
+      "gravity": true,
+      "friction": 0.4,
+      "fixed":   [ {"vertices": [0, 1, 2]}, {"box": {"min": [0,0,0], "max": [0.01,1,1]}} ],
+      "handles": [ {"select": {"box": {"min": [0,0,0], "max": [1,2,3]}},
+                    "motion": [ {"time": 0, "translate": [0,0,0], "rotate": {"axis": [1,0,0], "angle_deg": 0}, "about": [0,0,7]},
+                                {"time": 2, "translate": [0,1,0]} ],
+                    "release_time": 0.5} ],
+      "tractions": [ {"select": {"box": {"min": [0,0,0], "max": [1,1,1]}, "normal": [5,0,0], "normal_tolerance_deg": 60},
+                      "traction": [900, 0, 0], "profile": [[0, 1], [0.1, 3]], "follow": true},
+                     {"select": "all", "pressure": 1000},
+                     {"select": {"triangles": [7]}, "pressure": -1, "follow": true} ] },
+    { "name": "left", "archive": "/archives/rod.bem", "frame": "static", "gravity": false },
+    { "name": "right", "archive": "../rod.bem" } ],
+  "obstacles": [ {"name": "floor", "plane": {"point": [0,1,0], "normal": [0,3,0]}, "friction": 0.4},
+                 {"name": "bowl", "mesh": "bowl.obj", "position": [0,0,9], "friction": 0.3, "motion": []} ],
+  "joints": [ {"type": "point", "a": {"body": "left", "point": [0.1,0,0]}, "b": {"body": "right", "point": [0.2,0,0]}},
+              {"type": "weld", "a": {"body": "left"}, "b": {"body": "right"}, "tolerance": 1e-3} ],
+  "contact": {"enabled": true, "self": false, "tolerance": 1e-5, "friction_combine": "average"},
+  "output": {"formats": ["hdf5", "obj"], "every": 3, "fields": ["positions", "tractions"]} })json";
+  return text;
+}
+
+/// A scene with one body whose object ends with `members` (JSON, with a leading comma); they stand
+/// in line 4.
+inline std::string scene_with_body(const std::string& members) {
+  return "{\"version\": 1, \"time_step\": 0.01, \"duration\": 1,\n\"bodies\": [\n"
+         "{\"name\": \"a\", \"archive\": \"a.bem\"\n" +
+         members + "\n}]}";
+}
+
+/// The smallest scene, with `members` (JSON, with a leading comma) in line 2.
+inline std::string scene_with(const std::string& members) {
+  return "{\"version\": 1, \"time_step\": 0.01, \"duration\": 1, "
+         "\"bodies\": [{\"name\": \"a\", \"archive\": \"a.bem\"}]\n" +
+         members + "\n}";
+}
+
+/// The message that `read` fails with; "" if it succeeds, and the wrong code if that is not
+/// ErrorCode::invalid_input.
+template <class Read>
+std::string message_of(const Read& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::invalid_input)
+      return "error code " + std::to_string(static_cast<int>(error.code()));
+    return error.what();
+  }
+  return "";
+}
+
+inline std::string scene_error(const std::string& text) {
+  return message_of([&] { parse_scene("s.json", text); });
+}
+
+}  // namespace bem::test
