@@ -16,8 +16,8 @@ struct PointBatch {
   static constexpr int kPadding = 16;
 
   int size = 0;
-  bool singular = false;  ///< x is a vertex of the triangle: integrate dp*, not p*
-  bool far = false;       ///< x is more than two edge lengths away
+  bool singular = false;              ///< x is a vertex of the triangle: integrate dp*, not p*
+  bool far = false;                   ///< x is more than two edge lengths away
   double r[3][kCapacity];             ///< y - x [m]
   double shape_weight[3][kCapacity];  ///< weight * shape function of the triangle's vertices [m^2]
 

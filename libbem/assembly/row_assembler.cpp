@@ -83,8 +83,8 @@ double RowAssembler::assemble_row(int vertex, bool fix_translation, Workspace& w
   row.padded_lanes = lanes.padded_lanes;
   row.h.assign(n * 9 * stride, T(0));
   row.g.assign(n * 6 * stride, T(0));
-  row.d.assign(9 * stride, T(0));
-  row.q.assign(9 * stride, T(0));
+  row.d.assign(9 * stride, 0.0);
+  row.q.assign(9 * stride, 0.0);
   auto& sums = [&work]() -> auto& {
     if constexpr (std::is_same_v<T, float>)
       return work.far_sums;
@@ -92,6 +92,9 @@ double RowAssembler::assemble_row(int vertex, bool fix_translation, Workspace& w
       return work.sums;
   }
   ();
+  // d and l sum thousands of panels: in double precision, a few panels at a time
+  constexpr std::size_t kPanelsAtATime = 16;
+  AlignedVector<T> body(18 * stride, T(0));
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     sum_panel(vertex, static_cast<int>(t), work, sums);
     PanelTarget<T> target;
@@ -100,9 +103,16 @@ double RowAssembler::assemble_row(int vertex, bool fix_translation, Workspace& w
       target.h[a] = &row.h[j * 9 * stride];
       target.g[a] = &row.g[j * 6 * stride];
     }
-    target.d = row.d.data();
-    target.l = row.q.data();
+    target.d = body.data();
+    target.l = body.data() + 9 * stride;
     add_panel(sums.data(), quadrature_.normal(static_cast<int>(t)), lanes.padded_lanes, target);
+    if ((t + 1) % kPanelsAtATime == 0 || t + 1 == mesh_.triangles.size()) {
+      for (std::size_t e = 0; e < 9 * stride; ++e) {
+        row.d[e] += body[e];
+        row.q[e] += body[9 * stride + e];
+      }
+      std::fill(body.begin(), body.end(), T(0));
+    }
   }
 
   // q* = l* + d* [x - xbar]^T
@@ -111,8 +121,7 @@ double RowAssembler::assemble_row(int vertex, bool fix_translation, Workspace& w
     for (int j = 0; j < 3; ++j)
       for (int k = 0; k < 3; ++k)
         for (std::size_t lane = 0; lane < stride; ++lane)
-          row.q[(3 * i + j) * stride + lane] +=
-              static_cast<T>(row.d[(3 * i + k) * stride + lane] * arm(k, j));
+          row.q[(3 * i + j) * stride + lane] += row.d[(3 * i + k) * stride + lane] * arm(k, j);
 
   for (const auto& [j, block] : fans_.static_blocks(vertex, table_.kappa()))
     for (int e = 0; e < 9; ++e)
@@ -127,14 +136,13 @@ template <class T>
 double RowAssembler::fix_own_block(int vertex, BlockRow<T>& row) const {
   const std::size_t stride = row.padded_lanes;
   const std::size_t size = 9 * stride;
-  std::vector<double> sum(size, 0.0), body(stride), wanted(stride, 0.0);
+  std::vector<double> sum(size, 0.0), wanted(stride, 0.0);
   for (std::size_t j = 0; j < mesh_.vertices.size(); ++j)
     for (std::size_t e = 0; e < size; ++e) sum[e] += row.h[j * size + e];
   double largest = 0;
   T* own = &row.h[vertex * size];
   for (int e = 0; e < 9; ++e) {
-    std::copy_n(&row.d[e * stride], stride, body.begin());
-    translation_row_sums(discretisation_.scheme, layout(), discretisation_.dt, body.data(),
+    translation_row_sums(discretisation_.scheme, layout(), discretisation_.dt, &row.d[e * stride],
                          wanted.data());
     for (int lane = 0; lane < layout().count(); ++lane) {
       const double change = wanted[lane] - sum[e * stride + lane];

@@ -12,10 +12,10 @@ namespace bem {
 template <class T>
 struct BlockRow {
   int padded_lanes = 0;
-  AlignedVector<T> h;  ///< [vertex][9][padded lane]
-  AlignedVector<T> g;  ///< [vertex][6][padded lane]
-  AlignedVector<T> d;  ///< [9][padded lane]
-  AlignedVector<T> q;  ///< [9][padded lane]
+  AlignedVector<T> h;       ///< [vertex][9][padded lane]
+  AlignedVector<T> g;       ///< [vertex][6][padded lane]
+  AlignedVector<double> d;  ///< [9][padded lane]
+  AlignedVector<double> q;  ///< [9][padded lane]
 
   const T* h_block(int vertex) const { return &h[std::size_t(vertex) * 9 * padded_lanes]; }
   const T* g_block(int vertex) const { return &g[std::size_t(vertex) * 6 * padded_lanes]; }
