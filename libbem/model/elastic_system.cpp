@@ -1,0 +1,155 @@
+#include "model/elastic_system.hpp"
+
+#include "base/error.hpp"
+
+namespace bem {
+
+LagHistory::LagHistory(const Scheme& scheme, Eigen::Index inputs, int history_length, double window)
+    : window_(window),
+      ring_(history_length, Eigen::MatrixXd::Zero(
+                                inputs, static_cast<Eigen::Index>(scheme.lag_components().size()))),
+      zero_(history_length, 1) {
+  right_.resize(scheme.stages(), static_cast<Eigen::Index>(scheme.lag_components().size()));
+  for (Eigen::Index m = 0; m < right_.cols(); ++m) right_.col(m) = scheme.lag_components()[m].right;
+}
+
+void LagHistory::push(const Eigen::MatrixXd& stages) {
+  newest_ = (newest_ + ring_.size() - 1) % ring_.size();
+  ring_[newest_].noalias() = stages * right_;
+  zero_[newest_] = stages.isZero(0);
+  if (window_ != 1)
+    for (Eigen::MatrixXd& values : ring_) values *= window_;
+}
+
+ElasticSystem::ElasticSystem(const BodyModel& model) : model_(model) {
+  const int initial = static_cast<int>(scheme().initial_components().size());
+  std::vector<Eigen::MatrixXcd> response;
+  for (int i = 0; i < initial; ++i)
+    response.push_back(apply_inverse(i, model.initial_body_force[i]));
+  projection_ = RigidProjection(rigid_part(model.geometry.nodes), std::move(response));
+  body_force_.lags = model.body_force;
+}
+
+LagHistory ElasticSystem::make_history(Eigen::Index inputs) const {
+  return LagHistory(scheme(), inputs, model_.discretisation.history_length, model_.window);
+}
+
+void ElasticSystem::subtract_displacement_history(const LagHistory& u,
+                                                  Eigen::MatrixXd& component_sums) const {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(component_sums.rows(), component_sums.cols());
+  for (int k = 1; k <= u.length(); ++k) {
+    if (u.is_zero(k)) continue;
+    for (int m = 0; m < model_.components(); ++m)
+      model_.h[model_.lag_index(k, m)]->multiply_add(u.lag(k).col(m).data(), sums.col(m).data(), 1);
+  }
+  component_sums -= sums;
+}
+
+void ElasticSystem::add_input_history(const InputColumns& columns, const LagHistory& inputs,
+                                      Eigen::MatrixXd& component_sums) const {
+  for (int k = 1; k <= inputs.length(); ++k) {
+    if (inputs.is_zero(k)) continue;
+    for (int m = 0; m < model_.components(); ++m)
+      component_sums.col(m).noalias() +=
+          columns.lags[model_.lag_index(k, m)] * inputs.lag(k).col(m);
+  }
+}
+
+Eigen::MatrixXcd ElasticSystem::apply_inverse(int component, const Eigen::MatrixXcd& v) const {
+  const SpectralMatrix& inverse = model_.inverse[component];
+  const Eigen::Index n = v.rows(), count = v.cols();
+  // real and imaginary parts of the vectors side by side: each matrix is read once
+  Eigen::MatrixXd parts(n, 2 * count);
+  parts << v.real(), v.imag();
+  const int vectors = static_cast<int>(inverse.imaginary ? 2 * count : count);
+  Eigen::MatrixXd by_real = Eigen::MatrixXd::Zero(n, 2 * count);
+  inverse.real->multiply_add(parts.data(), by_real.data(), vectors);
+  Eigen::MatrixXcd out(n, count);
+  if (!inverse.imaginary) {
+    out = by_real.leftCols(count).cast<Complex>();
+    return out;
+  }
+  Eigen::MatrixXd by_imaginary = Eigen::MatrixXd::Zero(n, 2 * count);
+  inverse.imaginary->multiply_add(parts.data(), by_imaginary.data(), vectors);
+  out.real() = by_real.leftCols(count) - by_imaginary.rightCols(count);
+  out.imag() = by_real.rightCols(count) + by_imaginary.leftCols(count);
+  return out;
+}
+
+SpectralState ElasticSystem::solve(const Eigen::MatrixXd& component_sums) const {
+  Eigen::MatrixXd stage_sums = Eigen::MatrixXd::Zero(component_sums.rows(), scheme().stages());
+  for (int m = 0; m < model_.components(); ++m)
+    stage_sums.noalias() += component_sums.col(m) * scheme().lag_components()[m].left.transpose();
+  SpectralState state;
+  for (std::size_t i = 0; i < scheme().initial_components().size(); ++i) {
+    const InitialComponent& c = scheme().initial_components()[i];
+    const Eigen::MatrixXcd load = stage_sums.cast<Complex>() * c.right;
+    Eigen::MatrixXcd u = apply_inverse(static_cast<int>(i), load);
+    state.acceleration.push_back(projection_.project(static_cast<int>(i), u));
+    state.displacement.push_back(u);
+  }
+  return state;
+}
+
+void ElasticSystem::add_inputs(const InputColumns& columns, const Eigen::MatrixXd& stages,
+                               SpectralState& state) const {
+  for (std::size_t i = 0; i < state.displacement.size(); ++i) {
+    const Eigen::VectorXcd values = stages.cast<Complex>() * scheme().initial_components()[i].right;
+    state.displacement[i].noalias() += columns.displacement[i] * values;
+    state.acceleration[i].noalias() += columns.acceleration[i] * values;
+  }
+}
+
+Eigen::MatrixXd ElasticSystem::stages(const std::vector<Eigen::VectorXcd>& spectral) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(spectral[0].size(), scheme().stages());
+  for (std::size_t i = 0; i < spectral.size(); ++i) {
+    const InitialComponent& c = scheme().initial_components()[i];
+    for (int a = 0; a < scheme().stages(); ++a)
+      out.col(a) += c.multiplicity() * (c.left[a] * spectral[i]).real();
+  }
+  return out;
+}
+
+Eigen::MatrixXd ElasticSystem::displacement_stages(const SpectralState& state) const {
+  return stages(state.displacement);
+}
+
+Eigen::MatrixXd ElasticSystem::acceleration_stages(const SpectralState& state) const {
+  return -stages(state.acceleration);
+}
+
+InputColumns ElasticSystem::make_columns(std::vector<Eigen::MatrixXd> lags,
+                                         const std::vector<Eigen::MatrixXcd>& initial) const {
+  InputColumns columns;
+  columns.lags = std::move(lags);
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    Eigen::MatrixXcd u = apply_inverse(static_cast<int>(i), initial[i]);
+    columns.acceleration.push_back(projection_.project(static_cast<int>(i), u));
+    columns.displacement.push_back(std::move(u));
+  }
+  return columns;
+}
+
+InputColumns ElasticSystem::make_columns(const TractionData& tractions) const {
+  InputColumns columns;
+  columns.lags = tractions.lags;
+  columns.displacement = tractions.response;
+  for (std::size_t i = 0; i < columns.displacement.size(); ++i)
+    columns.acceleration.push_back(
+        projection_.project(static_cast<int>(i), columns.displacement[i]));
+  return columns;
+}
+
+TractionData extract_tractions(const BodyModel& model, const std::vector<int>& unknowns) {
+  require(!model.g.empty() && !model.traction_response.empty(), "traction matrices are in memory");
+  TractionData data;
+  data.unknowns = unknowns;
+  for (const auto& g : model.g) data.lags.push_back(g->extract_columns(unknowns));
+  for (const SpectralMatrix& m : model.traction_response) {
+    data.response.emplace_back(m.real->extract_columns(unknowns).cast<Complex>());
+    if (m.imaginary) data.response.back().imag() = m.imaginary->extract_columns(unknowns);
+  }
+  return data;
+}
+
+}  // namespace bem

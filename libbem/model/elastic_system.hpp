@@ -1,0 +1,108 @@
+#pragma once
+
+#include "model/rigid_projection.hpp"
+
+namespace bem {
+
+/// Past values of some scalar inputs (displacements, accelerations, loads), kept as the component
+/// inputs right_m . (stage values) that the lag matrices multiply, and weighted by the window.
+class LagHistory {
+ public:
+  LagHistory() = default;
+  LagHistory(const Scheme& scheme, Eigen::Index inputs, int history_length, double window);
+
+  /// Makes `stages` (inputs x s) the values of lag 1; older ones move on by one lag.
+  void push(const Eigen::MatrixXd& stages);
+
+  /// Component inputs of a lag (inputs x components), 1 <= lag <= history_length.
+  const Eigen::MatrixXd& lag(int k) const { return ring_[slot(k)]; }
+  /// Whether all values of a lag are zero, so that its matrices need not be read.
+  bool is_zero(int k) const { return zero_[slot(k)]; }
+  int length() const { return static_cast<int>(ring_.size()); }
+
+ private:
+  std::size_t slot(int k) const { return (newest_ + k - 1) % ring_.size(); }
+
+  Eigen::MatrixXd right_;  ///< s x components
+  double window_ = 1;
+  std::vector<Eigen::MatrixXd> ring_;
+  std::vector<char> zero_;
+  std::size_t newest_ = 0;
+};
+
+/// A few scalar inputs that act on a body, with their effect at every lag: accelerations of the
+/// frame, prescribed loads, or unknown nodal tractions.
+struct InputColumns {
+  std::vector<Eigen::MatrixXd> lags;           ///< right-hand side at lag >= 1, 3N x inputs
+  std::vector<Eigen::MatrixXcd> displacement;  ///< projected H_0^{-1} b_0 by initial component
+  std::vector<Eigen::MatrixXcd> acceleration;  ///< z of it, 6 x inputs
+
+  Eigen::Index inputs() const { return displacement.empty() ? 0 : displacement[0].cols(); }
+};
+
+/// Columns of the traction matrices at some unknowns (3*node + axis).
+struct TractionData {
+  std::vector<int> unknowns;
+  std::vector<Eigen::MatrixXd> lags;       ///< of G_k, lag >= 1, 3N x unknowns
+  std::vector<Eigen::MatrixXcd> response;  ///< of H_0^{-1} G_0 by initial component
+};
+
+/// Picks columns of a model whose traction matrices are in memory.
+TractionData extract_tractions(const BodyModel& model, const std::vector<int>& unknowns);
+
+/// Displacement and frame acceleration in spectral form, by initial component.
+struct SpectralState {
+  std::vector<Eigen::VectorXcd> displacement;  ///< 3N
+  std::vector<Eigen::VectorXcd> acceleration;  ///< z, 6
+};
+
+/// The linear part of a time step: products with the history, solution at lag 0, removal of rigid
+/// motion. Refers to a model; holds no state of a motion.
+class ElasticSystem {
+ public:
+  explicit ElasticSystem(const BodyModel& model);
+
+  /// component_sums (3N x components) -= sum_k H_k u_{n-k}. Reads every H_k once.
+  void subtract_displacement_history(const LagHistory& u, Eigen::MatrixXd& component_sums) const;
+
+  /// component_sums += sum_k b_k c_{n-k} for the inputs c of `columns`.
+  void add_input_history(const InputColumns& columns, const LagHistory& inputs,
+                         Eigen::MatrixXd& component_sums) const;
+
+  /// Displacements without rigid part for a history right-hand side. Reads H_0^{-1} once.
+  SpectralState solve(const Eigen::MatrixXd& component_sums) const;
+
+  /// Adds the effect of inputs at the current step (inputs x s stage values).
+  void add_inputs(const InputColumns& columns, const Eigen::MatrixXd& stages,
+                  SpectralState& state) const;
+
+  /// Stage values: 3N x s displacements and 6 x s accelerations (a', alpha) = -z.
+  Eigen::MatrixXd displacement_stages(const SpectralState& state) const;
+  Eigen::MatrixXd acceleration_stages(const SpectralState& state) const;
+
+  /// The accelerations of the frame as inputs (only their history is used).
+  const InputColumns& body_force() const { return body_force_; }
+  const RigidProjection& projection() const { return projection_; }
+  const BodyModel& model() const { return model_; }
+  const Scheme& scheme() const { return model_.discretisation.scheme; }
+  LagHistory make_history(Eigen::Index inputs) const;
+
+  /// Columns from right-hand sides at lag 0 by initial component (3N x inputs) and at the later
+  /// lags.
+  InputColumns make_columns(std::vector<Eigen::MatrixXd> lags,
+                            const std::vector<Eigen::MatrixXcd>& initial) const;
+  /// Columns of nodal tractions at some unknowns.
+  InputColumns make_columns(const TractionData& tractions) const;
+
+  /// H_0^{-1} v by initial component.
+  Eigen::MatrixXcd apply_inverse(int component, const Eigen::MatrixXcd& v) const;
+
+ private:
+  Eigen::MatrixXd stages(const std::vector<Eigen::VectorXcd>& spectral) const;
+
+  const BodyModel& model_;
+  RigidProjection projection_;
+  InputColumns body_force_;
+};
+
+}  // namespace bem

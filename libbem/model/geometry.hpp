@@ -1,0 +1,22 @@
+#pragma once
+
+#include "mesh/mass_properties.hpp"
+#include "mesh/surface.hpp"
+
+namespace bem {
+
+/// A body's surface as it is computed with: nodes and triangles along a Hilbert curve, so that
+/// neighbours in space are neighbours in memory, with the origin at the centre of mass.
+struct BodyGeometry {
+  TriangleMesh input;               ///< as read: outputs keep its vertices and faces
+  std::vector<int> node_of_vertex;  ///< input vertex -> node, -1 if no triangle uses it
+  std::vector<int> triangle_order;  ///< nodes.triangles[t] is input.triangles[triangle_order[t]]
+  TriangleMesh nodes;               ///< relative to the centre of mass, outward
+  MassProperties mass;              ///< centre in mesh coordinates
+  double extent = 0;                ///< largest distance between two nodes [m]
+};
+
+/// O(n log n).
+BodyGeometry make_geometry(const Surface& surface, double density);
+
+}  // namespace bem

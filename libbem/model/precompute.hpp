@@ -1,0 +1,30 @@
+#pragma once
+
+#include "model/body_model.hpp"
+
+#include <functional>
+
+namespace bem {
+
+struct PrecomputeOptions {
+  Discretisation discretisation;
+  Precision precision = Precision::float32;
+  double window = 0;  ///< 0: the weakest that keeps the measured growth at or below 1
+  bool measure_growth = true;
+};
+
+/// Called with the name of each phase as it begins and the fraction of it that is done.
+using Progress = std::function<void(const std::string& phase, double fraction)>;
+
+/// Computes all matrices of a body. Bit-identical for any number of threads.
+/// Cost: assembly O(N^2), inversion O(N^3); memory as precompute_memory().
+BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
+                     const Progress& progress = nullptr);
+
+/// Bytes of the stored matrices, and of the largest working set of precompute().
+struct MemoryEstimate {
+  double stored = 0, peak = 0;
+};
+MemoryEstimate precompute_memory(std::size_t nodes, const PrecomputeOptions& options);
+
+}  // namespace bem

@@ -1,0 +1,45 @@
+#include "model/rigid_projection.hpp"
+
+#include "base/error.hpp"
+
+#include <algorithm>
+
+namespace bem {
+
+Eigen::MatrixXd rigid_part(const TriangleMesh& mesh) {
+  const auto n = static_cast<Eigen::Index>(mesh.vertices.size());
+  const double volume = mass_properties(mesh, 1).volume;
+  const std::vector<Mat3> centroid = volume_centroid_weights(mesh, Vec3::Zero());
+  std::vector<double> weights = volume_weights(mesh, Vec3::Zero());
+  // strongly nonconvex bodies have negative weights: match shapes by surface area there
+  if (*std::min_element(weights.begin(), weights.end()) < 0) weights = vertex_areas(mesh);
+  Mat3 moment = Mat3::Zero();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vec3& x = mesh.vertices[i];
+    moment += weights[i] * (x.squaredNorm() * Mat3::Identity() - x * x.transpose());
+  }
+  const Mat3 inverse = moment.inverse();
+  Eigen::MatrixXd rigid(6, 3 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    rigid.block<3, 3>(0, 3 * i) = centroid[i] / volume;
+    rigid.block<3, 3>(3, 3 * i) = weights[i] * inverse * cross_matrix(mesh.vertices[i]);
+  }
+  return rigid;
+}
+
+RigidProjection::RigidProjection(Eigen::MatrixXd rigid, std::vector<Eigen::MatrixXcd> body_response)
+    : rigid_(std::move(rigid)), response_(std::move(body_response)) {
+  for (const Eigen::MatrixXcd& b : response_) {
+    const Eigen::Matrix<Complex, 6, 6> m = rigid_ * b;
+    inverse_.push_back(m.inverse());
+    require(inverse_.back().allFinite(), "the body-force columns move the body");
+  }
+}
+
+Eigen::MatrixXcd RigidProjection::project(int component, Eigen::Ref<Eigen::MatrixXcd> v) const {
+  Eigen::MatrixXcd z = inverse_[component] * (rigid_ * v);
+  v.noalias() -= response_[component] * z;
+  return z;
+}
+
+}  // namespace bem
