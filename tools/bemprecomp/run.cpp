@@ -3,12 +3,13 @@
 #include "archive/archive_writer.hpp"
 #include "base/error.hpp"
 #include "base/pending_file.hpp"
-#include "mesh/describe.hpp"
 #include "report.hpp"
 
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 
 namespace bem {
 namespace {
@@ -34,17 +35,22 @@ class StatsFile {
   std::optional<PendingFile> file_;
 };
 
+std::string short_text(double value) {
+  std::ostringstream text;
+  text << std::setprecision(6) << value;
+  return text.str();
+}
+
+/// Empty if motions do not grow noticeably.
 std::string growth_warning(const BodyModel& model) {
-  const double growth = model.report.growth;
-  const std::string number = to_text(growth);
+  const double growth = model.report.growth, left = growth * model.window;
   const std::string cure = "a larger --dt, a smaller theta, or a finer mesh";
-  if (growth * model.window > kNoticeableGrowth)
-    return "motions grow by a factor of " + to_text(growth * model.window) +
+  if (left > kNoticeableGrowth)
+    return "motions grow by a factor of " + short_text(left) +
            " per step; --window auto removes that, better are " + cure;
   if (growth > kNoticeableGrowth)
-    return "without window, motions would grow by a factor of " + number +
-           " per step; the window " + to_text(model.window) +
-           " removes that but damps, better are " + cure;
+    return "motions would grow by a factor of " + short_text(growth) + " per step; the window " +
+           short_text(model.window) + " removes that, but it damps: better are " + cure;
   return "";
 }
 
