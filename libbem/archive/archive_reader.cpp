@@ -1,0 +1,208 @@
+#include "archive/archive_reader.hpp"
+
+#include "archive/archive_layout.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+namespace bem {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr double kSchemeTolerance = 1e-10;
+
+}  // namespace
+
+Archive::Archive(const std::string& path)
+    : user_block_(verify_digest(path)), file_(Hdf5File::open(path, ErrorCode::archive)) {
+  require_text("format", "bem matrix archive");
+  if (file_.int_attribute("/", "format_version") != user_block_.version)
+    refuse("its format version is not that of its header");
+  require_text("model", kArchiveModel);
+  require_text("codec", kArchiveCodec);
+  const std::string precision = file_.string_attribute("/", "precision");
+  if (precision != "float32" && precision != "float64")
+    refuse("has the unknown precision \"" + precision + "\"");
+  precision_ = precision == "float32" ? Precision::float32 : Precision::float64;
+  read_geometry();
+  read_discretisation();
+  read_report();
+}
+
+void Archive::refuse(const std::string& what) const {
+  throw Error(ErrorCode::archive, path() + ": " + what);
+}
+
+void Archive::require_text(const std::string& name, const std::string& expected) const {
+  const std::string value = file_.string_attribute("/", name);
+  if (value != expected)
+    refuse("has the " + name + " \"" + value +
+           "\", but this version of the program understands \"" + expected + "\" only");
+}
+
+std::vector<Vec3> Archive::read_points(const std::string& path) const {
+  const Hdf5Dims dims = file_.dims(path);
+  const std::vector<double> data =
+      file_.read<double>(path, {dims.empty() ? 0 : dims[0], std::size_t(3)});
+  std::vector<Vec3> points;
+  points.reserve(data.size() / 3);
+  for (std::size_t i = 0; i < data.size(); i += 3) {
+    points.emplace_back(data[i], data[i + 1], data[i + 2]);
+    if (!points.back().allFinite()) refuse(path + " has a coordinate that is not finite");
+  }
+  return points;
+}
+
+std::vector<int> Archive::read_indices(const std::string& path, std::size_t count, int lowest,
+                                       std::size_t end) const {
+  const std::vector<std::int32_t> data = file_.read<std::int32_t>(path, {count});
+  for (std::int32_t index : data)
+    if (index < lowest || index >= static_cast<std::int64_t>(end))
+      refuse(path + " has an index out of range");
+  return {data.begin(), data.end()};
+}
+
+std::vector<Triangle> Archive::read_triangles(const std::string& path, std::size_t vertices) const {
+  const Hdf5Dims dims = file_.dims(path);
+  const std::vector<std::int32_t> data =
+      file_.read<std::int32_t>(path, {dims.empty() ? 0 : dims[0], std::size_t(3)});
+  std::vector<Triangle> triangles;
+  triangles.reserve(data.size() / 3);
+  for (std::size_t i = 0; i < data.size(); i += 3) {
+    triangles.push_back({data[i], data[i + 1], data[i + 2]});
+    for (int v : triangles.back())
+      if (v < 0 || v >= static_cast<std::int64_t>(vertices))
+        refuse(path + " has an index out of range");
+  }
+  return triangles;
+}
+
+void Archive::read_geometry() {
+  BodyGeometry& g = geometry_;
+  g.input.vertices = read_points("/mesh/vertices");
+  g.input.triangles = read_triangles("/mesh/faces", g.input.vertices.size());
+  g.nodes.vertices = read_points("/body/nodes");
+  g.nodes.triangles = read_triangles("/body/triangles", g.nodes.vertices.size());
+  const std::size_t triangles = g.input.triangles.size();
+  if (g.nodes.vertices.size() < 4 || triangles < 4 || g.nodes.triangles.size() != triangles)
+    refuse("its mesh is not a closed surface");
+  g.node_of_vertex =
+      read_indices("/body/node_of_vertex", g.input.vertices.size(), -1, g.nodes.vertices.size());
+  g.triangle_order = read_indices("/body/triangle_order", triangles, 0, triangles);
+  g.mass.centre = Eigen::Map<const Vec3>(file_.read<double>("/body/centre_of_mass", {3}).data());
+  g.mass.inertia =
+      Eigen::Map<const Mat3>(file_.read<double>("/body/inertia", {3, 3}).data()).transpose();
+  g.mass.volume = file_.double_attribute("/body", "volume");
+  g.mass.mass = file_.double_attribute("/body", "mass");
+  g.extent = file_.double_attribute("/body", "extent");
+}
+
+void Archive::read_discretisation() {
+  Discretisation& d = discretisation_;
+  Material& m = d.material;
+  m.name = file_.string_attribute("/material", "name");
+  m.density = file_.double_attribute("/material", "density");
+  m.shear_modulus = file_.double_attribute("/material", "shear_modulus");
+  m.poisson_ratio = file_.double_attribute("/material", "poisson_ratio");
+  if (file_.has_attribute("/material", "time_step"))
+    m.time_step = file_.double_attribute("/material", "time_step");
+  d.dt = file_.double_attribute("/scheme", "dt");
+  const std::int64_t history = file_.int_attribute("/scheme", "history_length");
+  if (history < 1 || history > 1000000) refuse("has an impossible length of the history");
+  d.history_length = static_cast<int>(history);
+  d.quadrature_tolerance = file_.double_attribute("/scheme", "quadrature_tolerance");
+  window_ = file_.double_attribute("/scheme", "window");
+  if (!(std::isfinite(d.dt) && d.dt > 0 && window_ > 0 && window_ <= 1))
+    refuse("has an impossible time step or window");
+  const std::string name = file_.string_attribute("/scheme", "name");
+  try {
+    d.scheme = Scheme::parse(name);
+  } catch (const Error& e) {
+    refuse(e.what());
+  }
+  check_scheme();
+}
+
+/// The matrices belong to components of the scheme: are they the ones that this program uses?
+void Archive::check_scheme() const {
+  const auto& lag = discretisation_.scheme.lag_components();
+  const auto& initial = discretisation_.scheme.initial_components();
+  const auto stages = static_cast<std::size_t>(discretisation_.scheme.stages());
+  const auto left = file_.read<double>("/scheme/lag_left", {lag.size(), stages});
+  const auto right = file_.read<double>("/scheme/lag_right", {lag.size(), stages});
+  const auto eigenvalues = file_.read<double>("/scheme/initial_eigenvalues", {initial.size(), 2});
+  double difference = 0;
+  for (std::size_t m = 0; m < lag.size(); ++m)
+    for (std::size_t s = 0; s < stages; ++s)
+      difference += std::abs(left[m * stages + s] - lag[m].left[static_cast<Eigen::Index>(s)]) +
+                    std::abs(right[m * stages + s] - lag[m].right[static_cast<Eigen::Index>(s)]);
+  for (std::size_t i = 0; i < initial.size(); ++i)
+    difference +=
+        std::abs(Complex(eigenvalues[2 * i], eigenvalues[2 * i + 1]) - initial[i].eigenvalue);
+  if (!(difference < kSchemeTolerance))
+    refuse("its matrices are decomposed in another way than this program does");
+}
+
+void Archive::read_report() {
+  report_.lam = file_.double_attribute("/report", "lam");
+  report_.row_sum_residual = file_.double_attribute("/report", "row_sum_residual");
+  report_.rotation_residual = file_.double_attribute("/report", "rotation_residual");
+  report_.condition = file_.double_attribute("/report", "condition");
+  report_.growth = file_.double_attribute("/report", "growth");
+  provenance_.program = file_.string_attribute("/provenance", "program");
+  provenance_.mesh_file = file_.string_attribute("/provenance", "mesh_file");
+  provenance_.material_file = file_.string_attribute("/provenance", "material_file");
+  provenance_.mesh_scale = file_.double_attribute("/provenance", "mesh_scale");
+  provenance_.options = file_.string_attribute("/provenance", "options");
+}
+
+bool Archive::is_paired(std::size_t initial_component) const {
+  return discretisation_.scheme.initial_components()[initial_component].paired;
+}
+
+std::vector<std::string> Archive::matrix_paths() const {
+  std::vector<std::string> paths;
+  for (const char* matrix : {"inverse", "traction_response"})
+    for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
+      paths.push_back(initial_path(matrix, i) + "/real");
+      if (is_paired(i)) paths.push_back(initial_path(matrix, i) + "/imaginary");
+    }
+  for (const char* matrix : {"h", "g"})
+    for (int lag = 1; lag <= discretisation_.history_length; ++lag)
+      for (std::size_t m = 0; m < lag_components(); ++m)
+        paths.push_back(lag_path(matrix, lag, static_cast<int>(m)));
+  return paths;
+}
+
+void Archive::load_body_force(BodyModel& model) const {
+  const std::size_t n = unknowns(), components = lag_components();
+  const auto lags = static_cast<std::size_t>(discretisation_.history_length);
+  const std::string path = std::string(kBodyForcePath) + "/lags";
+  if (file_.dims(path) != Hdf5Dims{lags, components, n, 6}) refuse(path + " has wrong extents");
+  RowMajor columns(static_cast<Eigen::Index>(n), 6);
+  for (std::size_t i = 0; i < lags * components; ++i) {
+    file_.read_block(path, {i / components, i % components, 0, 0}, {1, 1, n, 6}, columns.data());
+    model.body_force.emplace_back(columns);
+  }
+  for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
+    const std::string group = initial_path("body_force", i);
+    const auto part = [&](const char* name) {
+      const std::vector<double> data = file_.read<double>(group + name, {n, 6});
+      return RowMajor(Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(n), 6));
+    };
+    Eigen::MatrixXcd value = part("/real").cast<Complex>();
+    if (is_paired(i)) value.imag() = part("/imaginary");
+    model.initial_body_force.push_back(std::move(value));
+  }
+}
+
+BodyModel Archive::load_motion_matrices(const Progress& progress) const {
+  return load(false, progress);
+}
+
+BodyModel Archive::load_all(const Progress& progress) const {
+  return load(true, progress);
+}
+
+}  // namespace bem

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "archive/provenance.hpp"
+#include "archive/user_block.hpp"
+#include "base/hdf5.hpp"
+#include "model/elastic_system.hpp"
+#include "model/precompute.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bem {
+
+/// An archive that is open for reading (docs/archive-format.md). The digest of the whole file is
+/// checked first; then everything but the matrices is read. Everything here throws
+/// ErrorCode::archive with a message that names the file if it is missing, damaged or not what this
+/// version understands. Not thread safe, as Hdf5File.
+class Archive {
+ public:
+  explicit Archive(const std::string& path);
+
+  const std::string& path() const { return file_.path(); }
+  const UserBlock& user_block() const { return user_block_; }
+  const BodyGeometry& geometry() const { return geometry_; }
+  const Discretisation& discretisation() const { return discretisation_; }
+  double window() const { return window_; }
+  Precision precision() const { return precision_; }
+  const ModelReport& report() const { return report_; }
+  const Provenance& provenance() const { return provenance_; }
+  std::size_t unknowns() const { return 3 * geometry_.nodes.vertices.size(); }
+
+  /// What a motion without surface loads needs: h, inverse and both body forces; g and
+  /// traction_response stay empty. `progress` may throw to stop the loading.
+  BodyModel load_motion_matrices(const Progress& progress = nullptr) const;
+
+  /// The complete model, as it was given to write_archive.
+  BodyModel load_all(const Progress& progress = nullptr) const;
+
+  /// Columns of the traction matrices at some unknowns (3*node + axis). Streams the matrices, which
+  /// are never in memory as a whole.
+  TractionData load_tractions(const std::vector<int>& unknowns,
+                              const Progress& progress = nullptr) const;
+
+  /// Paths of all large matrices, [unknowns, unknowns] each, and reading of some rows of one.
+  std::vector<std::string> matrix_paths() const;
+  void read_matrix_rows(const std::string& path, std::size_t first, std::size_t rows,
+                        double* out) const {
+    file_.read_rows(path, first, rows, out);
+  }
+
+ private:
+  class Loading;
+
+  [[noreturn]] void refuse(const std::string& what) const;
+  void require_text(const std::string& name, const std::string& expected) const;
+  std::vector<Vec3> read_points(const std::string& path) const;
+  std::vector<Triangle> read_triangles(const std::string& path, std::size_t vertices) const;
+  std::vector<int> read_indices(const std::string& path, std::size_t count, int lowest,
+                                std::size_t end) const;
+  void read_geometry();
+  void read_discretisation();
+  void read_report();
+  void check_scheme() const;
+  std::size_t lag_components() const { return discretisation_.scheme.lag_components().size(); }
+  bool is_paired(std::size_t initial_component) const;
+  BodyModel load(bool tractions, const Progress& progress) const;
+  void load_body_force(BodyModel& model) const;
+
+  UserBlock user_block_;  // checked before the file is opened
+  Hdf5File file_;
+  BodyGeometry geometry_;
+  Discretisation discretisation_;
+  double window_ = 1;
+  Precision precision_ = Precision::float32;
+  ModelReport report_;
+  Provenance provenance_;
+};
+
+}  // namespace bem

@@ -1,0 +1,278 @@
+#include "archive/archive_writer.hpp"
+
+#include "archive/archive_layout.hpp"
+#include "archive/user_block.hpp"
+#include "base/hdf5.hpp"
+#include "base/pending_file.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+
+namespace bem {
+namespace {
+
+constexpr std::size_t kTileBytes = std::size_t(32) << 20;
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// What the file needs besides the matrices: objects of HDF5 and the mesh [bytes].
+double overhead_bytes(const BodyGeometry& g, double datasets) {
+  const auto vertices = static_cast<double>(g.input.vertices.size() + g.nodes.vertices.size());
+  const auto triangles = static_cast<double>(g.input.triangles.size());
+  return 28 * vertices + 28 * triangles + 400 * datasets + 18000;
+}
+
+double matrix_bytes(const BodyModel& model) {
+  double bytes = 0;
+  for (const auto* stores : {&model.h, &model.g})
+    for (const auto& store : *stores) bytes += static_cast<double>(store->bytes());
+  for (const auto* matrices : {&model.inverse, &model.traction_response})
+    for (const SpectralMatrix& m : *matrices)
+      bytes += static_cast<double>(m.real->bytes() + (m.imaginary ? m.imaginary->bytes() : 0));
+  for (const auto& m : model.body_force) bytes += 8.0 * static_cast<double>(m.size());
+  for (const auto& m : model.initial_body_force) bytes += 16.0 * static_cast<double>(m.size());
+  return bytes;
+}
+
+void write_points(Hdf5File& file, const std::string& path, const std::vector<Vec3>& points) {
+  std::vector<double> data;
+  data.reserve(3 * points.size());
+  for (const Vec3& p : points) data.insert(data.end(), p.data(), p.data() + 3);
+  file.write(path, data, {points.size(), 3});
+  file.set_attribute(path, "unit", "m");
+}
+
+void write_triangles(Hdf5File& file, const std::string& path,
+                     const std::vector<Triangle>& triangles) {
+  std::vector<std::int32_t> data;
+  data.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles) data.insert(data.end(), t.begin(), t.end());
+  file.write(path, data, {triangles.size(), 3});
+}
+
+void write_indices(Hdf5File& file, const std::string& path, const std::vector<int>& indices) {
+  file.write(path, std::vector<std::int32_t>(indices.begin(), indices.end()), {indices.size()});
+}
+
+void write_small(Hdf5File& file, const std::string& path, const RowMajor& values) {
+  file.write(path, values.data(),
+             {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())});
+}
+
+void write_geometry(Hdf5File& file, const BodyGeometry& g) {
+  write_points(file, "/mesh/vertices", g.input.vertices);
+  write_triangles(file, "/mesh/faces", g.input.triangles);
+  write_points(file, "/body/nodes", g.nodes.vertices);
+  write_triangles(file, "/body/triangles", g.nodes.triangles);
+  write_indices(file, "/body/node_of_vertex", g.node_of_vertex);
+  write_indices(file, "/body/triangle_order", g.triangle_order);
+  file.write("/body/centre_of_mass", g.mass.centre.data(), {3});
+  file.set_attribute("/body/centre_of_mass", "unit", "m");
+  write_small(file, "/body/inertia", g.mass.inertia);
+  file.set_attribute("/body/inertia", "unit", "kg m^2");
+  file.set_attribute("/body", "volume", g.mass.volume);
+  file.set_attribute("/body", "mass", g.mass.mass);
+  file.set_attribute("/body", "extent", g.extent);
+}
+
+void write_material(Hdf5File& file, const Material& m) {
+  file.create_group("/material");
+  file.set_attribute("/material", "name", m.name);
+  file.set_attribute("/material", "density", m.density);
+  file.set_attribute("/material", "shear_modulus", m.shear_modulus);
+  file.set_attribute("/material", "poisson_ratio", m.poisson_ratio);
+  if (m.time_step) file.set_attribute("/material", "time_step", *m.time_step);
+}
+
+/// Stage vectors as rows, real and imaginary parts in columns of their own: [vectors, 2 * stages].
+void write_scheme(Hdf5File& file, const BodyModel& model) {
+  const Discretisation& d = model.discretisation;
+  const Scheme& scheme = d.scheme;
+  const Eigen::Index stages = scheme.stages();
+  const auto& lag = scheme.lag_components();
+  const auto& initial = scheme.initial_components();
+  file.create_group("/scheme");
+  file.set_attribute("/scheme", "name", scheme.name());
+  file.set_attribute("/scheme", "stages", scheme.stages());
+  file.set_attribute("/scheme", "dt", d.dt);
+  file.set_attribute("/scheme", "history_length", d.history_length);
+  file.set_attribute("/scheme", "window", model.window);
+  file.set_attribute("/scheme", "quadrature_tolerance", d.quadrature_tolerance);
+  file.write("/scheme/stage_times", scheme.stage_times().data(),
+             {static_cast<std::size_t>(stages)});
+  RowMajor left(lag.size(), stages), right(lag.size(), stages);
+  for (std::size_t m = 0; m < lag.size(); ++m) {
+    left.row(m) = lag[m].left.transpose();
+    right.row(m) = lag[m].right.transpose();
+  }
+  write_small(file, "/scheme/lag_left", left);
+  write_small(file, "/scheme/lag_right", right);
+  RowMajor eigenvalues(initial.size(), 2), multiplicity(initial.size(), 1);
+  RowMajor initial_left(initial.size(), 2 * stages), initial_right(initial.size(), 2 * stages);
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    const InitialComponent& c = initial[i];
+    eigenvalues.row(i) << c.eigenvalue.real(), c.eigenvalue.imag();
+    multiplicity(i, 0) = c.multiplicity();
+    initial_left.row(i) << c.left.transpose().real(), c.left.transpose().imag();
+    initial_right.row(i) << c.right.transpose().real(), c.right.transpose().imag();
+  }
+  write_small(file, "/scheme/initial_eigenvalues", eigenvalues);
+  write_small(file, "/scheme/initial_multiplicity", multiplicity);
+  write_small(file, "/scheme/initial_left", initial_left);
+  write_small(file, "/scheme/initial_right", initial_right);
+}
+
+void write_report(Hdf5File& file, const ModelReport& r) {
+  file.create_group("/report");
+  file.set_attribute("/report", "lam", r.lam);
+  file.set_attribute("/report", "row_sum_residual", r.row_sum_residual);
+  file.set_attribute("/report", "rotation_residual", r.rotation_residual);
+  file.set_attribute("/report", "condition", r.condition);
+  file.set_attribute("/report", "growth", r.growth);
+}
+
+void write_provenance(Hdf5File& file, const Provenance& p) {
+  file.create_group("/provenance");
+  file.set_attribute("/provenance", "program", p.program);
+  file.set_attribute("/provenance", "mesh_file", p.mesh_file);
+  file.set_attribute("/provenance", "material_file", p.material_file);
+  file.set_attribute("/provenance", "mesh_scale", p.mesh_scale);
+  file.set_attribute("/provenance", "options", p.options);
+}
+
+/// Writes the large matrices and reports how much of them is written.
+class MatrixWriter {
+ public:
+  MatrixWriter(Hdf5File& file, double total_bytes, const Progress& progress)
+      : file_(file), total_(total_bytes), progress_(progress) {}
+
+  void write(const std::string& path, const StoredMatrix& matrix) {
+    if (const auto* single = dynamic_cast<const DenseStore<float>*>(&matrix))
+      write_dense(path, *single);
+    else if (const auto* full = dynamic_cast<const DenseStore<double>*>(&matrix))
+      write_dense(path, *full);
+    else
+      throw Error(ErrorCode::internal, "an archive cannot hold matrices of this codec");
+  }
+
+  void write(const std::string& group, const SpectralMatrix& matrix) {
+    write(group + "/real", *matrix.real);
+    if (matrix.imaginary) write(group + "/imaginary", *matrix.imaginary);
+  }
+
+ private:
+  template <class T>
+  void write_dense(const std::string& path, const DenseStore<T>& store) {
+    file_.create_dataset(path, hdf5_type<T>(), {store.rows(), store.columns()});
+    const std::size_t tile = std::max<std::size_t>(1, kTileBytes / (store.columns() * sizeof(T)));
+    for (std::size_t first = 0; first < store.rows(); first += tile) {
+      const std::size_t rows = std::min(tile, store.rows() - first);
+      file_.write_rows(path, first, rows, store.row(first));
+      written_ += static_cast<double>(rows * store.columns() * sizeof(T));
+      if (progress_) progress_("writing", std::min(1.0, written_ / total_));
+    }
+  }
+
+  Hdf5File& file_;
+  double total_, written_ = 0;
+  const Progress& progress_;
+};
+
+void write_body_force(Hdf5File& file, const BodyModel& model) {
+  const std::size_t unknowns = 3 * model.nodes();
+  const auto lags = static_cast<std::size_t>(model.discretisation.history_length);
+  const auto components = static_cast<std::size_t>(model.components());
+  const std::string path = std::string(kBodyForcePath) + "/lags";
+  file.create_dataset(path, Hdf5Type::float64, {lags, components, unknowns, 6});
+  for (std::size_t i = 0; i < model.body_force.size(); ++i) {
+    const RowMajor columns = model.body_force[i];
+    file.write_block(path, {i / components, i % components, 0, 0}, {1, 1, unknowns, 6},
+                     columns.data());
+  }
+  for (std::size_t i = 0; i < model.initial_body_force.size(); ++i) {
+    const std::string group = initial_path("body_force", i);
+    write_small(file, group + "/real", model.initial_body_force[i].real());
+    if (model.discretisation.scheme.initial_components()[i].paired)
+      write_small(file, group + "/imaginary", model.initial_body_force[i].imag());
+  }
+}
+
+void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& progress) {
+  MatrixWriter writer(file, matrix_bytes(model), progress);
+  write_body_force(file, model);
+  for (std::size_t i = 0; i < model.inverse.size(); ++i)
+    writer.write(initial_path("inverse", i), model.inverse[i]);
+  for (std::size_t i = 0; i < model.traction_response.size(); ++i)
+    writer.write(initial_path("traction_response", i), model.traction_response[i]);
+  for (const auto& [name, stores] : {std::pair("h", &model.h), std::pair("g", &model.g)})
+    for (int lag = 1; lag <= model.discretisation.history_length; ++lag)
+      for (int m = 0; m < model.components(); ++m)
+        writer.write(lag_path(name, lag, m), *(*stores)[model.lag_index(lag, m)]);
+  file.set_attribute("/matrices/h", "unit", "1");
+  file.set_attribute("/matrices/g", "unit", "m/Pa");
+  file.set_attribute("/matrices/inverse", "unit", "1");
+  file.set_attribute("/matrices/traction_response", "unit", "m/Pa");
+}
+
+void check_complete(const BodyModel& model) {
+  const auto lags = static_cast<std::size_t>(model.discretisation.history_length) *
+                    static_cast<std::size_t>(model.components());
+  const std::size_t initial = model.discretisation.scheme.initial_components().size();
+  require(model.h.size() == lags && model.g.size() == lags && model.body_force.size() == lags &&
+              model.inverse.size() == initial && model.traction_response.size() == initial &&
+              model.initial_body_force.size() == initial,
+          "all matrices of a model that is archived are in memory");
+}
+
+}  // namespace
+
+void check_archive_target(const std::string& path, bool force, double bytes) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status))
+    throw Error(ErrorCode::usage, path + ": is a directory; name a file to write");
+  if (std::filesystem::exists(status) && !force)
+    throw Error(ErrorCode::usage, path + ": exists already; use --force to overwrite it");
+  const PendingFile trial(path);
+  check_free_space(path, bytes);
+}
+
+double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& options) {
+  const Discretisation& d = options.discretisation;
+  const double lags = d.history_length * static_cast<double>(d.scheme.lag_components().size());
+  return precompute_memory(geometry.nodes.vertices.size(), options).stored +
+         overhead_bytes(geometry, 2 * lags);
+}
+
+void write_archive(const std::string& path, const BodyModel& model, const Provenance& provenance,
+                   bool force, const Progress& progress) {
+  check_complete(model);
+  const double bytes =
+      matrix_bytes(model) +
+      overhead_bytes(model.geometry, static_cast<double>(model.h.size() + model.g.size()));
+  check_archive_target(path, force, bytes);
+  PendingFile pending(path);
+  Hdf5CreateOptions options;
+  options.user_block = kUserBlock;
+  Hdf5File file = Hdf5File::create(pending.temporary_path(), options);
+  file.set_attribute("/", "format", "bem matrix archive");
+  file.set_attribute("/", "format_version", kArchiveVersion);
+  file.set_attribute("/", "model", kArchiveModel);
+  file.set_attribute("/", "codec", kArchiveCodec);
+  file.set_attribute("/", "precision",
+                     model.precision == Precision::float32 ? "float32" : "float64");
+  write_geometry(file, model.geometry);
+  write_material(file, model.discretisation.material);
+  write_scheme(file, model);
+  write_report(file, model.report);
+  write_provenance(file, provenance);
+  write_matrices(file, model, progress);
+  file.close();
+  if (progress) progress("digest", 0);
+  seal_archive(pending.temporary_path());
+  if (progress) progress("saving to disk", 0);
+  pending.commit();
+}
+
+}  // namespace bem

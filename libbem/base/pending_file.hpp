@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+namespace bem {
+
+/// A file that is written under a temporary name beside its final one, so that a file of the final
+/// name is always complete. Without commit() the temporary file goes away with the object.
+class PendingFile {
+ public:
+  /// Creates the empty temporary file. Throws ErrorCode::resources if the folder does not exist or
+  /// cannot be written.
+  explicit PendingFile(const std::string& path);
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  const std::string& temporary_path() const { return temporary_; }
+
+  /// Waits until the data is on the disk and gives the file its final name, replacing what has that
+  /// name. Throws ErrorCode::resources.
+  void commit();
+
+ private:
+  std::string path_, temporary_;
+};
+
+/// Throws ErrorCode::resources if the folder of `path` has less than `bytes` of free space.
+void check_free_space(const std::string& path, double bytes);
+
+}  // namespace bem

@@ -1,0 +1,181 @@
+#include "base/hdf5.hpp"
+#include "support/archives.hpp"
+
+#include <cstring>
+
+#include <catch2/catch.hpp>
+
+using namespace bem;
+using namespace bem_test;
+
+namespace {
+
+template <class T>
+bool same_bytes(const StoredMatrix& a, const StoredMatrix& b) {
+  const auto& x = dynamic_cast<const DenseStore<T>&>(a);
+  const auto& y = dynamic_cast<const DenseStore<T>&>(b);
+  return x.rows() == y.rows() && x.columns() == y.columns() &&
+         std::memcmp(x.row(0), y.row(0), x.bytes()) == 0;
+}
+
+bool same(Precision precision, const StoredMatrix& a, const StoredMatrix& b) {
+  return precision == Precision::float32 ? same_bytes<float>(a, b) : same_bytes<double>(a, b);
+}
+
+void check_same(Precision precision, const std::vector<std::unique_ptr<StoredMatrix>>& a,
+                const std::vector<std::unique_ptr<StoredMatrix>>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) CHECK(same(precision, *a[i], *b[i]));
+}
+
+void check_same(Precision precision, const std::vector<SpectralMatrix>& a,
+                const std::vector<SpectralMatrix>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    CHECK(same(precision, *a[i].real, *b[i].real));
+    REQUIRE(bool(a[i].imaginary) == bool(b[i].imaginary));
+    if (a[i].imaginary) CHECK(same(precision, *a[i].imaginary, *b[i].imaginary));
+  }
+}
+
+void check_motion(const BodyModel& a, const BodyModel& b) {
+  check_same(a.precision, a.h, b.h);
+  check_same(a.precision, a.inverse, b.inverse);
+  CHECK(a.body_force == b.body_force);
+  CHECK(a.initial_body_force == b.initial_body_force);
+}
+
+void check_small_parts(const BodyModel& a, const BodyModel& b) {
+  const BodyGeometry &x = a.geometry, &y = b.geometry;
+  CHECK(x.input.vertices == y.input.vertices);
+  CHECK(x.input.triangles == y.input.triangles);
+  CHECK(x.nodes.vertices == y.nodes.vertices);
+  CHECK(x.nodes.triangles == y.nodes.triangles);
+  CHECK(x.node_of_vertex == y.node_of_vertex);
+  CHECK(x.triangle_order == y.triangle_order);
+  CHECK(x.mass.volume == y.mass.volume);
+  CHECK(x.mass.mass == y.mass.mass);
+  CHECK(x.mass.centre == y.mass.centre);
+  CHECK(x.mass.inertia == y.mass.inertia);
+  CHECK(x.extent == y.extent);
+  const Discretisation &d = a.discretisation, &e = b.discretisation;
+  CHECK(d.scheme.name() == e.scheme.name());
+  CHECK(d.dt == e.dt);
+  CHECK(d.history_length == e.history_length);
+  CHECK(d.quadrature_tolerance == e.quadrature_tolerance);
+  CHECK(d.material.name == e.material.name);
+  CHECK(d.material.density == e.material.density);
+  CHECK(d.material.shear_modulus == e.material.shear_modulus);
+  CHECK(d.material.poisson_ratio == e.material.poisson_ratio);
+  CHECK(d.material.time_step == e.material.time_step);
+  CHECK(a.window == b.window);
+  CHECK(a.precision == b.precision);
+  CHECK(a.report.lam == b.report.lam);
+  CHECK(a.report.row_sum_residual == b.report.row_sum_residual);
+  CHECK(a.report.rotation_residual == b.report.rotation_residual);
+  CHECK(a.report.condition == b.report.condition);
+  CHECK(a.report.growth == b.report.growth);
+}
+
+}  // namespace
+
+TEST_CASE("A model comes back from its archive bit by bit") {
+  const test::TemporaryFolder folder("round_trip");
+  const std::string scheme = GENERATE("radau2", "theta:0.75", "bdf1");
+  const Precision precision = GENERATE(Precision::float32, Precision::float64);
+  CAPTURE(scheme, static_cast<int>(precision));
+  BodyModel model = small_model(scheme, precision);
+  model.report.growth = 1.25;
+  model.geometry.mass.inertia(0, 1) = 0.125;  // not symmetric: rows must stay rows
+  write_archive(folder / "a.bem", model, provenance(), false);
+  const Archive archive(folder / "a.bem");
+  const BodyModel back = archive.load_all();
+  check_small_parts(model, back);
+  check_motion(model, back);
+  check_same(precision, model.g, back.g);
+  check_same(precision, model.traction_response, back.traction_response);
+  CHECK(archive.matrix_paths().size() ==
+        2 * (model.h.size() + (model.discretisation.scheme.is_multistep() ? 1 : 2)));
+  CHECK(archive.provenance().program == "bem 0.0.0");
+  CHECK(archive.provenance().mesh_file == "sphere.obj");
+  CHECK(archive.provenance().material_file == "rubber.json");
+  CHECK(archive.provenance().mesh_scale == 0.5);
+  CHECK(archive.provenance().options == "--scheme radau2");
+}
+
+TEST_CASE("Parts of an archive are those of the whole") {
+  const test::TemporaryFolder folder("parts");
+  const Precision precision = GENERATE(Precision::float32, Precision::float64);
+  const BodyModel model = small_model("radau2", precision);
+  write_archive(folder / "a.bem", model, provenance(), false);
+  const Archive archive(folder / "a.bem");
+  CHECK(archive.unknowns() == 126);
+
+  const BodyModel motion = archive.load_motion_matrices();
+  check_small_parts(model, motion);
+  check_motion(model, motion);
+  CHECK(motion.g.empty());
+  CHECK(motion.traction_response.empty());
+
+  for (const std::vector<int>& unknowns : {std::vector<int>{125, 0, 17, 17}, std::vector<int>{}}) {
+    const TractionData part = archive.load_tractions(unknowns);
+    const TractionData expected = extract_tractions(model, unknowns);
+    CHECK(part.unknowns == unknowns);
+    CHECK(part.lags == expected.lags);
+    CHECK(part.response == expected.response);
+  }
+  CHECK_THROWS_AS(archive.load_tractions({126}), Error);
+  CHECK_THROWS_AS(archive.load_tractions({-1}), Error);
+
+  std::vector<double> rows(2 * 126);
+  archive.read_matrix_rows("/matrices/h/lag_002/component_1", 5, 2, rows.data());
+  const Eigen::MatrixXd column = model.h[model.lag_index(2, 1)]->extract_columns({3});
+  CHECK(rows[3] == column(5, 0));
+  CHECK(rows[126 + 3] == column(6, 0));
+}
+
+TEST_CASE("Loading reports its progress and can be stopped by it") {
+  const test::TemporaryFolder folder("load_progress");
+  write_archive(folder / "a.bem", small_model("bdf1"), provenance(), false);
+  const Archive archive(folder / "a.bem");
+  double last = 0;
+  bool ordered = true;
+  const auto watch = [&](const std::string&, double fraction) {
+    ordered = ordered && fraction >= last;
+    last = fraction;
+  };
+  archive.load_motion_matrices(watch);
+  CHECK(last == 1);
+  last = 0;
+  archive.load_tractions({0}, watch);
+  CHECK(last == 1);
+  last = 0;
+  archive.load_all(watch);
+  CHECK(last == 1);
+  CHECK(ordered);
+  struct Stop {};
+  CHECK_THROWS_AS(archive.load_all([](const std::string&, double) { throw Stop{}; }), Stop);
+}
+
+TEST_CASE("A sealed file that is not what this version understands is refused") {
+  const test::TemporaryFolder folder("foreign_contents");
+  const BodyModel model = small_model("bdf1");
+  Hdf5CreateOptions options;
+  options.user_block = kUserBlock;
+  const auto refusal = [&](const std::string& model_name, const std::string& codec) {
+    Hdf5File file = Hdf5File::create(folder / "a.bem", options);
+    file.set_attribute("/", "format", "bem matrix archive");
+    file.set_attribute("/", "format_version", 1);
+    file.set_attribute("/", "model", model_name);
+    file.set_attribute("/", "codec", codec);
+    file.set_attribute("/", "precision", "float32");
+    file.close();
+    seal_archive(folder / "a.bem");
+    return error_of([&] { Archive(folder / "a.bem"); });
+  };
+  CHECK(refusal("static", "none").second.find("model \"static\"") != std::string::npos);
+  CHECK(refusal("dynamic", "haar").second.find("codec \"haar\"") != std::string::npos);
+  const auto [code, message] = refusal("dynamic", "none");
+  CHECK(code == 4);
+  CHECK(message.find("/mesh/vertices") != std::string::npos);
+}

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <exception>
+
+namespace bem {
+
+/// Thrown by check_interrupt(); run_tool turns it into the exit code 128 + signal.
+class Interrupted : public std::exception {
+ public:
+  explicit Interrupted(int signal) : signal_(signal) {}
+  int signal() const { return signal_; }
+  const char* what() const noexcept override;
+
+ private:
+  int signal_;
+};
+
+/// From here on the first SIGINT or SIGTERM only sets a flag; a second one ends the process at
+/// once.
+void catch_interrupts();
+
+/// The signal that arrived, 0 if none. May be called from any thread.
+int pending_interrupt();
+
+/// Throws Interrupted if a signal arrived: what long work calls now and then.
+void check_interrupt();
+
+}  // namespace bem

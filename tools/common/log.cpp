@@ -1,0 +1,57 @@
+#include "common/log.hpp"
+
+#include "base/error.hpp"
+
+#include <iostream>
+
+#include <unistd.h>
+
+namespace bem {
+
+void Log::open_file(const std::string& path) {
+  file_.open(path, std::ios::trunc);
+  if (!file_) throw Error(ErrorCode::resources, path + ": the log file cannot be written");
+}
+
+void Log::error(const std::string& text) {
+  print("error: ", text, true);
+}
+
+void Log::warning(const std::string& text) {
+  print("warning: ", text, true);
+}
+
+void Log::info(const std::string& text) {
+  print("info: ", text, verbosity_ != Verbosity::quiet);
+}
+
+void Log::detail(const std::string& text) {
+  print("detail: ", text, verbosity_ == Verbosity::verbose);
+}
+
+void Log::print(const char* kind, const std::string& text, bool shown) {
+  const std::lock_guard lock(mutex_);
+  if (file_.is_open()) file_ << kind << text << std::endl;
+  if (!shown) return;
+  erase_status();
+  std::cerr << kind << text << "\n" << status_ << std::flush;
+}
+
+bool Log::shows_status() const {
+  static const bool terminal = isatty(STDERR_FILENO) == 1;
+  return terminal && verbosity_ != Verbosity::quiet;
+}
+
+void Log::set_status(const std::string& text) {
+  if (!shows_status()) return;
+  const std::lock_guard lock(mutex_);
+  erase_status();
+  status_ = text;
+  std::cerr << status_ << std::flush;
+}
+
+void Log::erase_status() {
+  if (!status_.empty()) std::cerr << "\r\033[K";
+}
+
+}  // namespace bem

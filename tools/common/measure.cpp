@@ -1,0 +1,95 @@
+#include "common/measure.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace bem {
+namespace {
+
+double wall_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double cpu_clock() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::string format(const char* pattern, double value, const char* unit) {
+  char text[64];
+  std::snprintf(text, sizeof text, pattern, value, unit);
+  return text;
+}
+
+}  // namespace
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+std::size_t physical_memory() {
+  auto memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
+                static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  for (const char* path :
+       {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+    std::ifstream file(path);
+    std::size_t limit = 0;  // "max" is no number
+    if (file >> limit && limit > 0) memory = std::min(memory, limit);
+  }
+  return memory;
+}
+
+void PhaseTimer::begin(const std::string& name) {
+  if (running_ && phases_[current_].name == name) return;
+  end();
+  const auto same = [&name](const Phase& p) { return p.name == name; };
+  const auto found = std::find_if(phases_.begin(), phases_.end(), same);
+  current_ = static_cast<std::size_t>(found - phases_.begin());
+  if (found == phases_.end()) phases_.push_back({name});
+  running_ = true;
+  wall_start_ = wall_clock();
+  cpu_start_ = cpu_clock();
+}
+
+void PhaseTimer::end() {
+  if (!running_) return;
+  Phase& phase = phases_[current_];
+  phase.wall_seconds += wall_clock() - wall_start_;
+  phase.cpu_seconds += cpu_clock() - cpu_start_;
+  phase.peak_memory = bem::peak_memory();
+  running_ = false;
+}
+
+double PhaseTimer::total_wall_seconds() const {
+  double total = 0;
+  for (const Phase& p : phases_) total += p.wall_seconds;
+  return total;
+}
+
+std::string bytes_text(double bytes) {
+  const char* units[] = {"B", "kB", "MB", "GB", "TB"};
+  int unit = 0;
+  for (; bytes >= 999.5 && unit < 4; ++unit) bytes /= 1000;
+  return format(bytes >= 99.95 || unit == 0 ? "%.0f %s" : "%.3g %s", bytes, units[unit]);
+}
+
+std::string seconds_text(double seconds) {
+  if (seconds < 9.95) return format("%.1f %s", seconds, "s");
+  const auto whole = static_cast<long long>(std::min(seconds, 1e15) + 0.5);
+  if (whole < 60) return std::to_string(whole) + " s";
+  if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+  return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
+}
+
+}  // namespace bem
