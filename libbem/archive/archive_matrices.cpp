@@ -132,6 +132,13 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
     load_initial("traction_response", model.traction_response);
     load_lags("g", model.g);
   }
+  const auto read_balance = [this](const char* path) -> Eigen::MatrixXd {
+    const std::vector<double> data = file_.read<double>(path, {6, unknowns()});
+    const auto n = static_cast<Eigen::Index>(unknowns());
+    return Eigen::Map<const Eigen::MatrixXd>(data.data(), n, 6).transpose();
+  };
+  model.balance = read_balance(kBalancePath);
+  model.traction_balance = read_balance(kTractionBalancePath);
   return model;
 }
 

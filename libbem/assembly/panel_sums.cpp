@@ -145,7 +145,7 @@ HWY_INLINE void Accumulate(D d, const PanelScratch<T>& s, int function, int size
 
 template <class T>
 void Accumulate(const LaneTable<T>& table, const KernelScales& scales, const PointBatch& batch,
-                const Vec3& normal, PanelScratch<T>& scratch, T* HWY_RESTRICT sums) {
+                const Vec3& normal, PanelScratch<T>& scratch, T* HWY_RESTRICT sums, int functions) {
   constexpr int kNodes = LaneTable<T>::kNodes;
   const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
   using V = hn::Vec<decltype(d)>;
@@ -153,7 +153,7 @@ void Accumulate(const LaneTable<T>& table, const KernelScales& scales, const Poi
   const std::size_t stride = table.padded_lanes;
   Coefficients(table, scales, batch, normal, scratch);
   alignas(64) T values[kCapacity * LaneTable<T>::kLanePadding];
-  for (int f = 0; f < kRadialCount; ++f) {
+  for (int f = 0; f < functions; ++f) {
     for (std::size_t lane = 0; lane < stride; lane += lanes) {
       const V rest = batch.singular ? hn::Load(d, table.static_part(f) + lane) : hn::Zero(d);
       const std::size_t offset = f * kNodes * stride + lane;
@@ -234,13 +234,13 @@ void Add(const T* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
 
 void AccumulateDouble(const LaneTable<double>& table, const KernelScales& scales,
                       const PointBatch& batch, const Vec3& normal, PanelScratch<double>& scratch,
-                      double* HWY_RESTRICT sums) {
-  Accumulate(table, scales, batch, normal, scratch, sums);
+                      double* HWY_RESTRICT sums, int functions) {
+  Accumulate(table, scales, batch, normal, scratch, sums, functions);
 }
 void AccumulateFloat(const LaneTable<float>& table, const KernelScales& scales,
                      const PointBatch& batch, const Vec3& normal, PanelScratch<float>& scratch,
-                     float* HWY_RESTRICT sums) {
-  Accumulate(table, scales, batch, normal, scratch, sums);
+                     float* HWY_RESTRICT sums, int functions) {
+  Accumulate(table, scales, batch, normal, scratch, sums, functions);
 }
 void AddDouble(const double* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
                const PanelTarget<double>& target) {
@@ -271,14 +271,14 @@ KernelScales::KernelScales(double shear_modulus, double shear_speed, double dt)
 
 void accumulate_panel(const LaneTable<double>& table, const KernelScales& scales,
                       const PointBatch& batch, const Vec3& normal, PanelScratch<double>& scratch,
-                      double* sums) {
-  HWY_DYNAMIC_DISPATCH(AccumulateDouble)(table, scales, batch, normal, scratch, sums);
+                      double* sums, int functions) {
+  HWY_DYNAMIC_DISPATCH(AccumulateDouble)(table, scales, batch, normal, scratch, sums, functions);
 }
 
 void accumulate_panel(const LaneTable<float>& table, const KernelScales& scales,
                       const PointBatch& batch, const Vec3& normal, PanelScratch<float>& scratch,
-                      float* sums) {
-  HWY_DYNAMIC_DISPATCH(AccumulateFloat)(table, scales, batch, normal, scratch, sums);
+                      float* sums, int functions) {
+  HWY_DYNAMIC_DISPATCH(AccumulateFloat)(table, scales, batch, normal, scratch, sums, functions);
 }
 
 void add_panel(const double* sums, const Vec3& normal, int padded_lanes,

@@ -40,13 +40,14 @@ struct PanelScratch {
 };
 
 /// sums[PanelSum][padded lane] += the contribution of a batch of points. At singular batches the
-/// static parts of P, Q, S are left out. Runs on the widest vector unit of the machine.
+/// static parts of P, Q, S are left out. Runs on the widest vector unit of the machine. Only the
+/// first `functions` radial functions are summed: 2 gives u* alone.
 void accumulate_panel(const LaneTable<double>& table, const KernelScales& scales,
                       const PointBatch& batch, const Vec3& normal, PanelScratch<double>& scratch,
-                      double* sums);
+                      double* sums, int functions = kRadialCount);
 void accumulate_panel(const LaneTable<float>& table, const KernelScales& scales,
                       const PointBatch& batch, const Vec3& normal, PanelScratch<float>& scratch,
-                      float* sums);
+                      float* sums, int functions = kRadialCount);
 
 /// The same in plain scalar code, for tests.
 void accumulate_panel_reference(const LaneTable<double>& table, const KernelScales& scales,

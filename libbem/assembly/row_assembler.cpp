@@ -132,6 +132,36 @@ double RowAssembler::assemble_row(int vertex, bool fix_translation, Workspace& w
   return fix_translation ? fix_own_block(vertex, row) : 0;
 }
 
+std::vector<Eigen::Matrix3Xd> RowAssembler::assemble_loads(int vertex,
+                                                           const std::vector<PanelLoad>& loads,
+                                                           Workspace& work) const {
+  constexpr int kDisplacementFunctions = 2;  // a and b
+  constexpr int kSymmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  const std::size_t stride = table_.lanes().padded_lanes;
+  const Eigen::Index cases = loads.empty() ? 0 : loads[0].traction.cols();
+  std::vector<Eigen::Matrix3Xd> out(layout().count(), Eigen::Matrix3Xd::Zero(3, cases));
+  work.sums.resize(kPanelSums * stride);
+  for (const PanelLoad& load : loads) {
+    std::fill(work.sums.begin(), work.sums.end(), 0.0);
+    quadrature_.for_each_batch(vertex, load.triangle, work.batch, [&](const PointBatch& batch) {
+      accumulate_panel(table_.lanes(), scales_, batch, quadrature_.normal(load.triangle),
+                       work.scratch, work.sums.data(), kDisplacementFunctions);
+    });
+    for (int lane = 0; lane < layout().count(); ++lane) {
+      const auto sum = [&](int first, int step, int offset) {
+        double total = 0;  // over the shape functions: they add up to one
+        for (int a = 0; a < 3; ++a) total += work.sums[(first + step * a + offset) * stride + lane];
+        return total;
+      };
+      Mat3 block = sum(kSumA, 1, 0) * Mat3::Identity();
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) block(i, j) += sum(kSumB, 6, kSymmetric[i][j]);
+      out[lane].noalias() += block * load.traction;
+    }
+  }
+  return out;
+}
+
 template <class T>
 double RowAssembler::fix_own_block(int vertex, BlockRow<T>& row) const {
   const std::size_t stride = row.padded_lanes;

@@ -56,6 +56,16 @@ class RowAssembler {
   double assemble(int vertex, bool fix_translation, Workspace& workspace,
                   BlockRow<float>& row) const;
 
+  /// A traction that is constant on a triangle, for several load cases: 3 x cases [Pa].
+  struct PanelLoad {
+    int triangle;
+    Eigen::Matrix3Xd traction;
+  };
+  /// Row of the load columns sum_T int u* dGamma p_T at every lane: out[lane] is 3 x cases. The
+  /// tractions are exact, with jumps from triangle to triangle.
+  std::vector<Eigen::Matrix3Xd> assemble_loads(int vertex, const std::vector<PanelLoad>& loads,
+                                               Workspace& workspace) const;
+
   const RadialTable& table() const { return table_; }
   const LaneLayout& layout() const { return table_.layout(); }
   const TriangleMesh& mesh() const { return mesh_; }

@@ -14,14 +14,19 @@ static_assert(std::is_same_v<hid_t, std::int64_t>, "the header spells hid_t with
   throw Error(error, path + ": " + what + (cause.empty() ? "" : " (" + cause + ")"));
 }
 
-/// File access with a fixed range of format versions, so that the bytes do not depend on what a
-/// later library thinks best. 1.8's format is read by everything; SWMR needs 1.10's.
-Hdf5Handle file_access(bool swmr) {
+Hdf5Handle file_access() {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  const H5F_libver_t version = swmr ? H5F_LIBVER_V110 : H5F_LIBVER_V18;
-  require(H5Pset_libver_bounds(access.get(), version, version) >= 0, "HDF5 format version");
   // Some network file systems have no locks: go on without them.
   require(H5Pset_file_locking(access.get(), true, true) >= 0, "HDF5 file locking");
+  return access;
+}
+
+/// Access for a new file. The format version is fixed, so that the bytes do not depend on what a
+/// later library thinks best: 1.8's is read by everything; SWMR needs 1.10's.
+Hdf5Handle new_file_access(bool swmr) {
+  Hdf5Handle access = file_access();
+  const H5F_libver_t version = swmr ? H5F_LIBVER_V110 : H5F_LIBVER_V18;
+  require(H5Pset_libver_bounds(access.get(), version, version) >= 0, "HDF5 format version");
   return access;
 }
 
@@ -37,7 +42,7 @@ std::vector<std::string> parents(const std::string& path) {
 
 Hdf5File Hdf5File::create(const std::string& path, const Hdf5CreateOptions& options) {
   silence_hdf5();
-  const Hdf5Handle access = file_access(options.swmr);
+  const Hdf5Handle access = new_file_access(options.swmr);
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   require(H5Pset_userblock(creation.get(), options.user_block) >= 0, "size of an HDF5 user block");
   require(H5Pset_obj_track_times(creation.get(), false) >= 0, "HDF5 files without time stamps");
@@ -56,7 +61,7 @@ Hdf5File Hdf5File::open(const std::string& path, ErrorCode error) {
   const htri_t recognised = H5Fis_hdf5(path.c_str());
   if (recognised == 0) throw Error(error, path + ": is not an HDF5 file");
   if (recognised < 0) fail_at_file(path, error, "cannot be opened");
-  const Hdf5Handle access = file_access(false);
+  const Hdf5Handle access = file_access();
   const Id id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get());
   if (id < 0) fail_at_file(path, error, "cannot be opened as an HDF5 file");
   return Hdf5File(path, error, id);

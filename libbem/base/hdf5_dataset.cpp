@@ -51,7 +51,7 @@ hid_t memory_type(Hdf5Type type) {
   throw Error(ErrorCode::internal, "unknown Hdf5Type");
 }
 
-/// Can every value of the stored type be had in the wanted one (but for rounding)?
+/// Can every value of the one type be had in the other (but for rounding)?
 bool convertible(hid_t stored, Hdf5Type wanted) {
   const bool to_float = wanted == Hdf5Type::float64 || wanted == Hdf5Type::float32;
   const H5T_class_t kind = H5Tget_class(stored);
@@ -202,6 +202,8 @@ void Hdf5File::check_part(const std::string& path, const Hdf5Dims& start,
 void Hdf5File::write_raw(const std::string& path, Hdf5Type type, const Hdf5Dims& start,
                          const Hdf5Dims& count, const void* data) {
   check_part(path, start, count);
+  if (!convertible(memory_type(type), this->type(path)))
+    fail(path, "holds numbers of another type than those to be written");
   if (std::find(count.begin(), count.end(), 0) != count.end()) return;
   const Transfer t = select_part(open_dataset(id(), path), start, count);
   if (H5Dwrite(t.dataset.get(), memory_type(type), t.memory_space.get(), t.file_space.get(),

@@ -165,6 +165,7 @@ TEST_CASE("numbers are converted unless they would lose more than digits") {
   const double values[] = {0.1, 2};
   file.write_rows("/converted", 0, 2, values);
   CHECK(file.read<float>("/converted") == std::vector<float>{0.1F, 2});
+  CHECK_THROWS_AS(file.write_rows("/int32", 0, 2, values), Error);
   for (const char* path : {"/double", "/float"})
     CHECK_THROWS_AS(file.read<std::int32_t>(path), Error);
   CHECK_THROWS_AS(file.read<std::uint8_t>("/int32"), Error);

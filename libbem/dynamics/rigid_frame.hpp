@@ -1,0 +1,84 @@
+#pragma once
+
+#include "kernels/scheme.hpp"
+#include "mesh/mass_properties.hpp"
+
+#include <vector>
+
+namespace bem {
+
+/// Where a body starts.
+struct InitialMotion {
+  Vec3 centre = Vec3::Zero();            ///< centre of mass [m]
+  Mat3 rotation = Mat3::Identity();      ///< body axes to world axes
+  Vec3 velocity = Vec3::Zero();          ///< of the centre of mass [m/s]
+  Vec3 angular_velocity = Vec3::Zero();  ///< world axes [rad/s]
+  Vec3 gravity = Vec3::Zero();           ///< acceleration of free fall [m/s^2]
+};
+
+/// The rigid motion that a body's displacements are measured from, integrated with the time
+/// discretisation of the convolution quadrature. Its state holds the angular momentum, which is
+/// constant without torque whatever the inertia; the ballistic part of the motion is exact.
+///
+/// A stationary frame stays where the body started: rigid motion is then kept to first order in the
+/// rotation, as linear elasticity has it in a fixed frame.
+class RigidFrame {
+ public:
+  RigidFrame(const Scheme& scheme, double dt, const MassProperties& mass,
+             const InitialMotion& initial, bool stationary);
+
+  /// Frame at the stages of a step.
+  struct Stages {
+    std::vector<Vec3> translation;  ///< of the centre of mass [m]
+    std::vector<Mat3> rotation;     ///< body to world axes
+    std::vector<Vec3> velocity, angular_momentum;
+    std::vector<Vec3> turn;  ///< stationary frame: linear rotation vector [rad]
+  };
+
+  /// Frame at the stages of the next step under forces [N] and torques about the centre of mass
+  /// [N m] in world axes, gravity not included (one per stage).
+  Stages stages(const std::vector<Vec3>& forces, const std::vector<Vec3>& torques) const;
+  /// Takes the last stage as the new state.
+  void advance(const Stages& stages);
+
+  /// World position of the point x (relative to the centre of mass) with displacement u.
+  Vec3 place(const Stages& s, int stage, const Vec3& x, const Vec3& u) const {
+    if (stationary_)
+      return s.translation[stage] + initial_rotation_ * (x + u) +
+             s.turn[stage].cross(initial_rotation_ * x);
+    return s.translation[stage] + s.rotation[stage] * (x + u);
+  }
+  /// The current state as stages, for place().
+  Stages current() const;
+
+  /// dt^2 times the square of the integration matrix: position by force over mass.
+  const StageMatrix& position_by_acceleration() const { return position_by_acceleration_; }
+  const Mat3& inverse_inertia() const { return inverse_inertia_; }
+  double mass() const { return mass_; }
+
+  const Mat3& rotation() const { return state_.rotation; }
+  Vec3 translation() const;
+  Vec3 velocity() const { return state_.velocity + time() * gravity_; }
+  const Vec3& angular_momentum() const { return state_.angular_momentum; }
+  double time() const { return static_cast<double>(step_) * dt_; }
+
+ private:
+  struct State {
+    Vec3 position, velocity, angular_momentum, turn;
+    Mat3 rotation;
+  };
+  template <class T>
+  T base(const T& now, const T& before) const;
+  void integrate_rotation(Stages& s) const;
+
+  StageVector stage_times_;
+  StageMatrix integration_, position_by_acceleration_;
+  double theta_, dt_, mass_;
+  bool multistep_, stationary_;
+  Mat3 inertia_, inverse_inertia_, initial_rotation_;
+  Vec3 gravity_;
+  State state_, previous_;  ///< without the fall under gravity
+  long step_ = 0;
+};
+
+}  // namespace bem

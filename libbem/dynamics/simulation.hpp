@@ -1,0 +1,55 @@
+#pragma once
+
+#include "dynamics/body.hpp"
+
+#include <functional>
+
+namespace bem {
+
+/// CPU-independent wall-clock seconds per phase, summed over all steps.
+struct PhaseTimes {
+  double unconstrained = 0;  ///< products with the history
+  double collision = 0;
+  double constraints = 0;  ///< frame, loads, fixed vertices and handles
+  double correction = 0;   ///< displacements of the new step, history
+};
+
+/// Loads what a scene needs of an archive.
+class ModelSource {
+ public:
+  virtual ~ModelSource() = default;
+  /// The model with the matrices of free motion, for an archive path as resolved in the scene.
+  virtual std::shared_ptr<const BodyModel> model(const FilePath& archive) = 0;
+  /// Traction columns of some unknowns, ascending.
+  virtual TractionData tractions(const FilePath& archive, const std::vector<int>& unknowns) = 0;
+};
+
+/// A scene in motion. Bit-identical for any number of threads.
+class Simulation {
+ public:
+  /// Loads every archive once. Throws ErrorCode::archive if one does not fit the scene.
+  Simulation(const Scene& scene, ModelSource& source);
+
+  void step();
+  double time() const { return static_cast<double>(steps_) * scene_.time_step; }
+  long steps() const { return steps_; }
+  const std::vector<Body>& bodies() const { return bodies_; }
+  const PhaseTimes& times() const { return times_; }
+  const Scene& scene() const { return scene_; }
+
+  /// Bytes of the matrices in memory, and how many archives they come from.
+  std::size_t matrix_bytes() const { return matrix_bytes_; }
+  std::size_t archives() const { return archives_; }
+
+ private:
+  Scene scene_;
+  std::vector<Body> bodies_;
+  PhaseTimes times_;
+  long steps_ = 0;
+  std::size_t matrix_bytes_ = 0, archives_ = 0;
+};
+
+/// Number of steps of a scene: duration / time step, rounded to the nearest.
+long step_count(double duration, double time_step);
+
+}  // namespace bem

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "model/elastic_system.hpp"
+#include "scene/scene.hpp"
+
+namespace bem {
+
+/// A prescribed traction of the scene as inputs of the elastic system: one input for a load that
+/// turns with the body, three (the world directions seen from the body) for one that does not.
+class SurfaceLoad {
+ public:
+  /// Integrates the load over its triangles for every node and lag: O(N x triangles).
+  /// `initial_rotation`: body to world axes at the start.
+  SurfaceLoad(const TractionSpec& spec, const ElasticSystem& system, const RowAssembler& assembler,
+              const Mat3& initial_rotation);
+
+  const InputColumns& columns() const { return columns_; }
+  Eigen::Index inputs() const { return force_.cols(); }
+
+  /// Input values at time t [s] for a body with rotation `rotation`.
+  Eigen::VectorXd values(double t, const Mat3& rotation) const;
+  /// Whether values() depends on the rotation.
+  bool depends_on_rotation() const { return !follows_; }
+
+  /// Total force [N] and torque about the centre of mass [N m] in body axes: 3 x inputs.
+  const Eigen::Matrix3Xd& force() const { return force_; }
+  const Eigen::Matrix3Xd& torque() const { return torque_; }
+
+  /// Adds the load's nodal tractions (averages over the triangles around a node) [Pa, body axes].
+  void add_nodal_tractions(const Eigen::VectorXd& values, Eigen::Matrix3Xd& tractions) const;
+
+ private:
+  TractionSpec spec_;
+  bool follows_;
+  InputColumns columns_;
+  Eigen::Matrix3Xd force_, torque_;
+  std::vector<std::pair<int, Eigen::Matrix3Xd>> nodal_;  ///< node, 3 x inputs
+};
+
+}  // namespace bem

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "base/types.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace bem {
+
+/// What stays the same about a body in all frames of a trajectory.
+struct TrajectoryBody {
+  std::string name;                 ///< unique; fit to be part of a file name and of an HDF5 path
+  std::size_t vertices = 0;         ///< of the input mesh
+  std::vector<Triangle> triangles;  ///< of the input mesh, as it lists them
+  bool tractions = false;           ///< frames bring tractions that are to be written
+};
+
+/// One body at one time.
+struct BodyFrame {
+  std::vector<Vec3> positions;       ///< by vertex of the input mesh [m, world]
+  Vec3 translation = Vec3::Zero();   ///< of the body's frame [m]:
+  Mat3 rotation = Mat3::Identity();  ///< world = translation + rotation * frame coordinates
+  std::vector<Vec3> tractions;       ///< by vertex [Pa, world]; unused without the body's flag
+};
+
+/// All bodies at one time.
+struct Frame {
+  std::size_t index = 0;          ///< 0, 1, 2, ...; 0 is the initial state
+  std::size_t step = 0;           ///< of the simulation
+  double time = 0;                ///< [s]
+  std::vector<BodyFrame> bodies;  ///< in the order of the TrajectoryBody list
+};
+
+/// Writes the frames of a run in one format.
+class FrameWriter {
+ public:
+  virtual ~FrameWriter() = default;
+  FrameWriter(const FrameWriter&) = delete;
+  FrameWriter& operator=(const FrameWriter&) = delete;
+
+  /// Writes one frame, the next one by its index. When the call returns the frame is in the hands
+  /// of the operating system: a process that dies later does not take it along. Throws
+  /// ErrorCode::resources if it cannot be written, ErrorCode::internal if it does not fit the
+  /// bodies.
+  virtual void write(const Frame& frame) = 0;
+
+  /// Completes the output; no call may follow. A writer that goes away without it leaves all its
+  /// frames readable. Throws ErrorCode::resources.
+  virtual void close() = 0;
+
+ protected:
+  FrameWriter() = default;
+};
+
+/// Checks names and triangles of the bodies; throws ErrorCode::internal.
+void check_bodies(const std::vector<TrajectoryBody>& bodies);
+
+/// Checks that a frame has the sizes of the bodies; throws ErrorCode::internal.
+void check_frame(const std::vector<TrajectoryBody>& bodies, const Frame& frame);
+
+}  // namespace bem

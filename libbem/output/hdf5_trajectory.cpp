@@ -1,0 +1,96 @@
+#include "output/hdf5_trajectory.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace bem {
+namespace {
+
+constexpr std::size_t kPage = 4096;              // bytes that a disk writes anyway
+constexpr std::size_t kVerticesPerChunk = 1024;  // 24 KiB
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "vectors are stored without gaps");
+static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t), "triangles are stored without gaps");
+
+Hdf5File create_file(const std::string& directory) {
+  Hdf5CreateOptions options;
+  options.swmr = true;
+  return Hdf5File::create(directory + "/" + kTrajectoryFile, options);
+}
+
+std::string group(const TrajectoryBody& body) {
+  return "/bodies/" + body.name;
+}
+
+/// Chunk of a series whose frames have these extents. One frame of a part of the vertices: writing
+/// a frame touches nothing old, and the path of a single vertex is found without reading whole
+/// frames. Frames smaller than a page share one.
+Hdf5Dims chunk(const Hdf5Dims& extents) {
+  Hdf5Dims result{1};
+  std::size_t bytes = sizeof(double);
+  for (std::size_t n : extents) {
+    result.push_back(std::clamp<std::size_t>(n, 1, kVerticesPerChunk));
+    bytes *= result.back();
+  }
+  result[0] = std::max<std::size_t>(1, kPage / bytes);
+  return result;
+}
+
+}  // namespace
+
+Hdf5Trajectory::Hdf5Trajectory(const std::string& directory, std::vector<TrajectoryBody> bodies)
+    : bodies_((check_bodies(bodies), std::move(bodies))), file_(create_file(directory)) {
+  file_.set_attribute("/", "format", "bem trajectory");
+  file_.set_attribute("/", "version", 1);
+  create_series("/time", {}, "s");
+  for (const TrajectoryBody& body : bodies_) {
+    const std::string path = group(body);
+    file_.write(path + "/faces", body.triangles.empty() ? nullptr : body.triangles[0].data(),
+                {body.triangles.size(), 3});
+    file_.set_attribute(path + "/faces", "units", "1");
+    create_series(path + "/positions", {body.vertices, 3}, "m");
+    create_series(path + "/frame/translation", {3}, "m");
+    create_series(path + "/frame/rotation", {3, 3}, "1");
+    if (body.tractions) create_series(path + "/tractions", {body.vertices, 3}, "Pa");
+  }
+  file_.start_swmr();
+  file_.flush();
+}
+
+void Hdf5Trajectory::create_series(const std::string& path, const Hdf5Dims& extents,
+                                   const char* units) {
+  Hdf5Dims dims{0};
+  dims.insert(dims.end(), extents.begin(), extents.end());
+  file_.create_dataset(path, Hdf5Type::float64, dims, {chunk(extents), true});
+  file_.set_attribute(path, "units", units);
+}
+
+void Hdf5Trajectory::append(const std::string& path, const double* values) {
+  file_.extend_rows(path, frames_ + 1);
+  file_.write_rows(path, frames_, 1, values);
+}
+
+void Hdf5Trajectory::write(const Frame& frame) {
+  check_frame(bodies_, frame);
+  require(frame.index == frames_, "frames are written in their order");
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyFrame& body = frame.bodies[i];
+    const std::string path = group(bodies_[i]);
+    const Mat3 rows = body.rotation.transpose();  // stored by columns, as the file wants the rows
+    append(path + "/positions", body.positions.data()->data());
+    append(path + "/frame/translation", body.translation.data());
+    append(path + "/frame/rotation", rows.data());
+    if (bodies_[i].tractions) append(path + "/tractions", body.tractions.data()->data());
+  }
+  // Only then the time: who sees it finds the rest.
+  file_.flush();
+  append("/time", &frame.time);
+  file_.flush();
+  ++frames_;
+}
+
+void Hdf5Trajectory::close() {
+  file_.close();
+}
+
+}  // namespace bem

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "mesh/triangle_mesh.hpp"
+#include "output/frame.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bem {
+
+/// Folder of the frames in the output directory.
+inline constexpr const char* kObjFolder = "obj";
+
+/// File name of one body in one frame: NAME_000000.obj, with more digits where they are needed.
+std::string obj_frame_name(const std::string& body, std::size_t frame);
+
+/// Is this the name of a file that an ObjSequence writes, of whatever body?
+bool is_obj_frame_name(std::string_view file_name);
+
+/// Writes OUT_DIR/obj/NAME_000000.obj, one file for each body and frame: vertices and faces of the
+/// input mesh in their order, world coordinates [m] as the shortest decimals that read back to the
+/// same double. A file appears under its name when it is complete.
+class ObjSequence : public FrameWriter {
+ public:
+  /// Creates the folder in an existing directory. Throws ErrorCode::resources.
+  ObjSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies);
+
+  /// Any order of frames is possible; an existing file is overwritten.
+  void write(const Frame& frame) override;
+  void close() override {}
+
+ private:
+  std::string folder_;
+  std::vector<TrajectoryBody> bodies_;
+  std::vector<TriangleMesh> meshes_;  ///< by body; the vertices are those of the last frame
+};
+
+}  // namespace bem

@@ -1,0 +1,76 @@
+#include "assembly/laplace_assembly.hpp"
+#include "base/parallel.hpp"
+#include "model/elastic_system.hpp"
+#include "model/precompute.hpp"
+#include "support/models.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace bem;
+using namespace bem_test;
+
+TEST_CASE("the stored inverse and traction response belong to H_0 and G_0") {
+  const Material m = material(1000, 1e6, 0.4);
+  const BodyGeometry g = geometry_of(star(1, 0.4), m.density);
+  for (const char* scheme : {"radau2", "bdf2"}) {
+    PrecomputeOptions o = options_for(g, m, scheme, 3);
+    o.discretisation.quadrature_tolerance = 1e-8;
+    const BodyModel model = precompute(g, o);
+    const Complex s =
+        o.discretisation.scheme.initial_components()[0].eigenvalue / o.discretisation.dt;
+    const LaplaceMatrices exact = laplace_matrices(g.nodes, m, s, 1e-9);
+    const ElasticSystem system(model);
+    const Eigen::MatrixXcd h = exact.h;
+    const Eigen::MatrixXcd product = system.apply_inverse(0, h);
+    CHECK((product - Eigen::MatrixXcd::Identity(h.rows(), h.cols())).cwiseAbs().maxCoeff() < 1e-5);
+    const TractionData t = extract_tractions(model, {0, 7, 50});
+    CHECK((h * t.response[0].col(1) - exact.g.col(7)).norm() < 1e-5 * exact.g.col(7).norm());
+    CHECK(model.report.condition > 1);
+    CHECK(model.report.condition < 1e5);
+    CHECK(model.report.rotation_residual < 1e-5);
+  }
+}
+
+TEST_CASE("precomputation is bit-identical for any number of threads") {
+  const Material m = material(1000, 1e6, 0.4);
+  const BodyGeometry g = geometry_of(star(1, 0.4), m.density);
+  PrecomputeOptions o = options_for(g, m, "radau2", 3);
+  o.precision = Precision::float32;
+  std::vector<Eigen::MatrixXd> inverses, lags;
+  for (int threads : {1, 2, 3}) {
+    set_thread_count(threads);
+    const BodyModel model = precompute(g, o);
+    std::vector<int> all(3 * model.nodes());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+    inverses.push_back(model.inverse[0].real->extract_columns(all));
+    lags.push_back(model.h.back()->extract_columns(all));
+  }
+  CHECK(inverses[0] == inverses[1]);
+  CHECK(inverses[0] == inverses[2]);
+  CHECK(lags[0] == lags[1]);
+  CHECK(lags[0] == lags[2]);
+}
+
+TEST_CASE("the automatic window brings the growth of an unstable body down to one") {
+  // a coarse beam shows the weak negative damping of collocation
+  const Material m = material(1000, 1e6, 0.3);
+  const BodyGeometry g = geometry_of(box(Vec3(1, 0.2, 0.2), {8, 2, 2}), m.density);
+  PrecomputeOptions o = options_for(g, m, "radau2", 3.5);
+  o.measure_growth = true;
+  o.window = 0;
+  const BodyModel model = precompute(g, o);
+  CHECK(model.report.growth > 1.0005);
+  CHECK(model.report.growth < 1.02);
+  CHECK(model.window < 1);
+  CHECK(model.window * model.report.growth <= 1);
+  CHECK(model.window * model.report.growth > 1 - 1e-5);
+}
+
+TEST_CASE("the memory estimate counts the stored matrices") {
+  PrecomputeOptions o;
+  o.discretisation.history_length = 6;
+  const MemoryEstimate e = precompute_memory(1000, o);
+  // radau2: 18 lag matrices and one complex initial one, for H and G, in 4-byte entries
+  CHECK(e.stored == Approx(9e6 * 4 * 2 * 20).epsilon(0.01));
+  CHECK(e.peak > e.stored);
+}

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "output/frame.hpp"
+#include "support/temporary_folder.hpp"
+#include "unit/mesh/mesh_test.hpp"
+
+namespace bem::test {
+
+/// Two bodies, a tetrahedron with tractions and a larger one without.
+inline std::vector<TrajectoryBody> sample_bodies() {
+  const TriangleMesh small = unit_tetrahedron();
+  TrajectoryBody first{"small", small.vertices.size(), small.triangles, true};
+  TrajectoryBody second{"large one", 3000, {{0, 1, 2}, {2999, 1, 0}}, false};
+  return {first, second};
+}
+
+/// A frame of them whose every number is another one.
+inline Frame sample_frame(std::size_t index) {
+  const double t = 0.5 * double(index);
+  Frame frame{index, 2 * index, t, {}};
+  for (const TrajectoryBody& body : sample_bodies()) {
+    BodyFrame state;
+    const double b = double(body.vertices);
+    for (std::size_t v = 0; v < body.vertices; ++v) {
+      state.positions.push_back(Vec3(b, t, double(v) / 3));
+      if (body.tractions) state.tractions.push_back(1e3 * Vec3(t, b, double(v) / 7));
+    }
+    state.translation = Vec3(t, b, -1);
+    state.rotation << t, 1, 2, 3, 4, 5, 6, 7, b;
+    frame.bodies.push_back(state);
+  }
+  return frame;
+}
+
+}  // namespace bem::test

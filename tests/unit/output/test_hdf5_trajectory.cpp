@@ -1,0 +1,196 @@
+#include "output/hdf5_trajectory.hpp"
+#include "output_test.hpp"
+
+#include <csignal>
+#include <cstdio>
+
+#include <sys/wait.h>
+
+using namespace bem;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using test::error_message;
+using test::sample_bodies;
+using test::sample_frame;
+
+namespace {
+
+constexpr std::size_t kFrames = 7;
+
+void check_frames(const Hdf5File& file, std::size_t frames) {
+  const auto times = file.read<double>("/time", {frames});
+  const auto bodies = sample_bodies();
+  for (std::size_t f = 0; f < frames; ++f) {
+    const Frame frame = sample_frame(f);
+    CHECK(times[f] == frame.time);
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const BodyFrame& state = frame.bodies[b];
+      const std::string path = "/bodies/" + bodies[b].name;
+      std::vector<Vec3> points(bodies[b].vertices);
+      file.read_rows(path + "/positions", f, 1, points.data()->data());
+      CHECK(points == state.positions);
+      Vec3 translation;
+      file.read_rows(path + "/frame/translation", f, 1, translation.data());
+      CHECK(translation == state.translation);
+      Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rotation;
+      file.read_rows(path + "/frame/rotation", f, 1, rotation.data());
+      CHECK(Mat3(rotation) == state.rotation);
+      if (!bodies[b].tractions) continue;
+      file.read_rows(path + "/tractions", f, 1, points.data()->data());
+      CHECK(points == state.tractions);
+    }
+  }
+}
+
+/// Standard output and error of a script run by Debian's Python, which brings h5py.
+std::string run_python(const std::string& script, const std::string& argument) {
+  const test::TemporaryFile file("script.py", script);
+  const std::string command = "/usr/bin/python3 " + file.path() + " '" + argument + "' 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe);
+  std::string output;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
+  pclose(pipe);
+  return output;
+}
+
+bool have_h5py() {
+  const bool have = run_python("import h5py\nprint('yes')\n", "") == "yes\n";
+  if (!have) WARN("skipped: /usr/bin/python3 has no h5py");
+  return have;
+}
+
+const char* const kReader = R"(
+import sys, h5py
+swmr = sys.argv[1].startswith("swmr:")
+with h5py.File(sys.argv[1].split(":", 1)[1], "r", swmr=swmr) as file:
+    frames = len(file["time"])
+    body = file["bodies/large one"]
+    print(frames, file["time"][frames - 1], body["positions"].shape, body["positions"].dtype,
+          body["positions"][frames - 1, 3, 2], body["positions"].attrs["units"],
+          body["faces"][1, 0], body["frame/rotation"][frames - 1, 0, 1],
+          file["bodies/small/tractions"].attrs["units"])
+)";
+
+std::string reader_output(std::size_t frames) {
+  const double time = sample_frame(frames - 1).time;
+  char text[200];
+  std::snprintf(text, sizeof text, "%zu %.1f (%zu, 3000, 3) float64 1.0 m 2999 1.0 Pa\n", frames,
+                time, frames);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a trajectory holds what was written") {
+  const test::TemporaryFolder folder("trajectory");
+  Hdf5Trajectory writer(folder.path(), sample_bodies());
+  for (std::size_t f = 0; f < kFrames; ++f) writer.write(sample_frame(f));
+  writer.close();
+  const Hdf5File file = Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive);
+  check_frames(file, kFrames);
+  CHECK(file.children("/bodies") == std::vector<std::string>{"large one", "small"});
+  CHECK(file.dims("/bodies/large one/positions") == Hdf5Dims{kFrames, 3000, 3});
+  CHECK(file.dims("/bodies/small/frame/rotation") == Hdf5Dims{kFrames, 3, 3});
+  CHECK_FALSE(file.exists("/bodies/large one/tractions"));
+  CHECK(file.type("/bodies/small/faces") == Hdf5Type::int32);
+  CHECK(file.read<std::int32_t>("/bodies/small/faces", {4, 3}) ==
+        std::vector<std::int32_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
+}
+
+TEST_CASE("every dataset of a trajectory names its unit") {
+  const test::TemporaryFolder folder("trajectory_units");
+  Hdf5Trajectory(folder.path(), sample_bodies()).close();
+  const Hdf5File file = Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive);
+  const std::string body = "/bodies/small";
+  CHECK(file.string_attribute("/time", "units") == "s");
+  CHECK(file.string_attribute(body + "/positions", "units") == "m");
+  CHECK(file.string_attribute(body + "/faces", "units") == "1");
+  CHECK(file.string_attribute(body + "/frame/translation", "units") == "m");
+  CHECK(file.string_attribute(body + "/frame/rotation", "units") == "1");
+  CHECK(file.string_attribute(body + "/tractions", "units") == "Pa");
+}
+
+TEST_CASE("one vertex can be followed through time") {
+  const test::TemporaryFolder folder("trajectory_vertex");
+  Hdf5Trajectory writer(folder.path(), sample_bodies());
+  for (std::size_t f = 0; f < kFrames; ++f) writer.write(sample_frame(f));
+  writer.close();
+  const Hdf5File file = Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive);
+  std::vector<Vec3> path(kFrames);
+  file.read_block("/bodies/large one/positions", {0, 2047, 0}, {kFrames, 1, 3},
+                  path.data()->data());
+  for (std::size_t f = 0; f < kFrames; ++f)
+    CHECK(path[f] == sample_frame(f).bodies[1].positions[2047]);
+}
+
+TEST_CASE("a trajectory can be read while it is written and after") {
+  if (!have_h5py()) return;
+  const test::TemporaryFolder folder("trajectory_live");
+  Hdf5Trajectory writer(folder.path(), sample_bodies());
+  for (std::size_t f = 0; f < kFrames; ++f) {
+    writer.write(sample_frame(f));
+    if (f % 3 == 0)
+      CHECK(run_python(kReader, "swmr:" + folder / "trajectory.h5") == reader_output(f + 1));
+  }
+  writer.close();
+  CHECK(run_python(kReader, "plain:" + folder / "trajectory.h5") == reader_output(kFrames));
+}
+
+TEST_CASE("a writer that goes away without close leaves its frames") {
+  const test::TemporaryFolder folder("trajectory_destroyed");
+  {
+    Hdf5Trajectory writer(folder.path(), sample_bodies());
+    for (std::size_t f = 0; f < 3; ++f) writer.write(sample_frame(f));
+  }
+  check_frames(Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive), 3);
+}
+
+TEST_CASE("a writer that is killed leaves its frames") {
+  if (!have_h5py()) return;
+  const test::TemporaryFolder folder("trajectory_killed");
+  const pid_t child = fork();
+  if (child == 0) {
+    Hdf5Trajectory writer(folder.path(), sample_bodies());
+    for (std::size_t f = 0; f < 3; ++f) writer.write(sample_frame(f));
+    std::raise(SIGKILL);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(WIFSIGNALED(status));
+  CHECK(run_python(kReader, "swmr:" + folder / "trajectory.h5") == reader_output(3));
+}
+
+TEST_CASE("the same trajectory twice gives the same bytes") {
+  const test::TemporaryFolder folder("trajectory_bytes");
+  std::string bytes[2];
+  for (std::string& text : bytes) {
+    Hdf5Trajectory writer(folder.path(), sample_bodies());
+    for (std::size_t f = 0; f < 3; ++f) writer.write(sample_frame(f));
+    writer.close();
+    text = test::read_file(folder / "trajectory.h5");
+  }
+  CHECK(bytes[0].size() > 3 * 3000 * 3 * 8);
+  CHECK(bytes[0] == bytes[1]);
+}
+
+TEST_CASE("frames come in their order and with all bodies") {
+  const test::TemporaryFolder folder("trajectory_order");
+  Hdf5Trajectory writer(folder.path(), sample_bodies());
+  writer.write(sample_frame(0));
+  CHECK_THROWS_AS(writer.write(sample_frame(0)), Error);
+  CHECK_THROWS_AS(writer.write(sample_frame(2)), Error);
+  Frame lacking = sample_frame(1);
+  lacking.bodies.pop_back();
+  CHECK_THROWS_AS(writer.write(lacking), Error);
+  writer.write(sample_frame(1));
+  writer.close();
+  check_frames(Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive), 2);
+}
+
+TEST_CASE("a trajectory that cannot be created is a resource error") {
+  const test::TemporaryFolder folder("trajectory_error");
+  const std::string missing = folder / "missing";
+  CHECK_THAT(error_message(ErrorCode::resources, [&] { Hdf5Trajectory(missing, {}); }),
+             StartsWith(missing + "/trajectory.h5: "));
+}

@@ -1,0 +1,93 @@
+#include "output/hdf5_trajectory.hpp"
+#include "output/obj_sequence.hpp"
+#include "output/output_directory.hpp"
+#include "output_test.hpp"
+
+using namespace bem;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using test::error_message;
+namespace fs = std::filesystem;
+
+namespace {
+
+void write_everything(const std::string& directory) {
+  Hdf5Trajectory hdf5(directory, test::sample_bodies());
+  ObjSequence obj(directory, test::sample_bodies());
+  for (FrameWriter* writer : std::initializer_list<FrameWriter*>{&hdf5, &obj}) {
+    writer->write(test::sample_frame(0));
+    writer->close();
+  }
+}
+
+void touch(const std::string& path) {
+  std::ofstream(path) << "mine";
+}
+
+}  // namespace
+
+TEST_CASE("an output directory is created with those above it") {
+  const test::TemporaryFolder folder("output_new");
+  for (int twice = 0; twice < 2; ++twice)
+    prepare_output_directory(folder / "a/b/c", ExistingOutput::refuse);
+  CHECK(fs::is_directory(folder / "a/b/c"));
+}
+
+TEST_CASE("an output directory that cannot be created is a resource error") {
+  const test::TemporaryFolder folder("output_bad");
+  touch(folder / "file");
+  for (const std::string& directory : {folder / "file", folder / "file/below"})
+    CHECK_THAT(error_message(ErrorCode::resources,
+                             [&] { prepare_output_directory(directory, ExistingOutput::refuse); }),
+               StartsWith(directory + ": "));
+}
+
+TEST_CASE("earlier output is refused, whichever format it has") {
+  const test::TemporaryFolder folder("output_refuse");
+  const auto refusal = [&] {
+    return error_message(ErrorCode::usage,
+                         [&] { prepare_output_directory(folder.path(), ExistingOutput::refuse); });
+  };
+  touch(folder / "trajectory.h5");
+  CHECK_THAT(refusal(), StartsWith(folder / "trajectory.h5: ") && Contains("--force"));
+  CHECK(fs::exists(folder / "trajectory.h5"));
+  fs::remove(folder / "trajectory.h5");
+  fs::create_directory(folder / "obj");
+  CHECK_NOTHROW(prepare_output_directory(folder.path(), ExistingOutput::refuse));
+  touch(folder / "obj/b_000001.obj");
+  touch(folder / "obj/b_000000.obj");
+  CHECK_THAT(refusal(), StartsWith(folder / "obj/b_000000.obj (and 1 more): "));
+  CHECK_NOTHROW(prepare_output_directory(folder.path(), ExistingOutput::keep));
+  CHECK(find_output(folder.path()).size() == 2);
+}
+
+TEST_CASE("replacing removes all that the writers write and nothing else") {
+  const test::TemporaryFolder folder("output_replace");
+  write_everything(folder.path());
+  CHECK(find_output(folder.path()).size() == 3);
+  const std::vector<std::string> mine = {"notes.txt", "trajectory.h5.old", "x_000000.obj",
+                                         "obj/bunny.obj"};
+  for (const std::string& name : mine) touch(folder / name);
+  fs::create_directory(folder / "obj/folder_000000.obj");
+  touch(folder / "obj/small_000003.obj.tmp");
+  prepare_output_directory(folder.path(), ExistingOutput::replace);
+  CHECK(find_output(folder.path()).empty());
+  CHECK_FALSE(fs::exists(folder / "obj/small_000003.obj.tmp"));
+  CHECK_FALSE(fs::exists(folder / "trajectory.h5"));
+  for (const std::string& name : mine) CHECK(test::read_file(folder / name) == "mine");
+  CHECK(fs::is_directory(folder / "obj/folder_000000.obj"));
+}
+
+TEST_CASE("a folder that replacing empties goes too, other empty ones stay") {
+  const test::TemporaryFolder folder("output_emptied");
+  write_everything(folder.path());
+  fs::create_directory(folder / "empty");
+  prepare_output_directory(folder.path(), ExistingOutput::replace);
+  CHECK_FALSE(fs::exists(folder / "obj"));
+  fs::create_directory(folder / "obj");
+  touch(folder / "trajectory.h5");
+  prepare_output_directory(folder.path() + "/", ExistingOutput::replace);
+  CHECK_FALSE(fs::exists(folder / "trajectory.h5"));
+  CHECK(fs::exists(folder / "obj"));
+  CHECK(fs::exists(folder / "empty"));
+}
