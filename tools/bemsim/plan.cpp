@@ -160,7 +160,7 @@ void print_plan(std::ostream& out, const Plan& plan) {
     vertices += body.archive->geometry().input.vertices.size();
     archives.insert(body.archive);
   }
-  out << "bodies:  " << plan.bodies.size() << " of " << count_text(archives.size(), "archive")
+  out << "bodies:  " << plan.bodies.size() << " from " << count_text(archives.size(), "archive")
       << ", " << count_text(vertices, "vertex") << "\n";
   out << "memory:  " << to_text(std::ceil(plan.memory / 1e5) / 10) << " MB\n";
   out << "time:    " << count_text(static_cast<std::size_t>(plan.steps), "step") << " of "
