@@ -28,4 +28,8 @@ inline std::string initial_path(const std::string& matrix, std::size_t component
 
 inline constexpr char kBodyForcePath[] = "/matrices/body_force";
 
+/// Accelerations that balance static right-hand sides and nodal tractions, [6, 3N] each.
+inline constexpr char kBalancePath[] = "/matrices/balance/load";
+inline constexpr char kTractionBalancePath[] = "/matrices/balance/traction";
+
 }  // namespace bem

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 // The part of Archive that loads the large matrices.
 
@@ -25,6 +26,18 @@ class Archive::Loading {
 
   std::unique_ptr<StoredMatrix> load(const std::string& path) {
     return precision_ == Precision::float32 ? load_dense<float>(path) : load_dense<double>(path);
+  }
+
+  void check_numbers(const std::string& path) {
+    check(path, precision_ == Precision::float32 ? Hdf5Type::float32 : Hdf5Type::float64);
+    std::vector<double> tile(std::min(n_, tile_rows<double>()) * n_);
+    for_each_tile<double>([&](std::size_t first, std::size_t rows) {
+      file_.read_rows(path, first, rows, tile.data());
+      if (!std::all_of(tile.begin(), tile.begin() + static_cast<std::ptrdiff_t>(rows * n_),
+                       [](double x) { return std::isfinite(x); }))
+        throw Error(ErrorCode::archive,
+                    file_.path() + ": " + path + " has a number that is not finite");
+    });
   }
 
   Eigen::MatrixXd load_columns(const std::string& path, const std::vector<int>& columns) {
@@ -95,7 +108,9 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
   model.window = window_;
   model.precision = precision_;
   model.report = report_;
-  load_body_force(model);
+  BodyForce force = load_body_force();
+  model.body_force = std::move(force.lags);
+  model.initial_body_force = std::move(force.initial);
   const std::size_t matrices = matrix_paths().size();
   Loading loading(*this, tractions ? matrices : matrices / 2, progress);
   const auto load_lags = [&](const char* name, std::vector<std::unique_ptr<StoredMatrix>>& out) {
@@ -117,7 +132,25 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
     load_initial("traction_response", model.traction_response);
     load_lags("g", model.g);
   }
+  const auto read_balance = [this](const char* path) -> Eigen::MatrixXd {
+    const std::vector<double> data = file_.read<double>(path, {6, unknowns()});
+    const auto n = static_cast<Eigen::Index>(unknowns());
+    return Eigen::Map<const Eigen::MatrixXd>(data.data(), n, 6).transpose();
+  };
+  model.balance = read_balance(kBalancePath);
+  model.traction_balance = read_balance(kTractionBalancePath);
   return model;
+}
+
+void Archive::check_matrices(const Progress& progress) const {
+  const BodyForce force = load_body_force();
+  const auto finite = [](const auto& m) { return m.allFinite(); };
+  if (!std::all_of(force.lags.begin(), force.lags.end(), finite) ||
+      !std::all_of(force.initial.begin(), force.initial.end(), finite))
+    refuse(std::string(kBodyForcePath) + " has a number that is not finite");
+  const std::vector<std::string> paths = matrix_paths();
+  Loading loading(*this, paths.size(), progress);
+  for (const std::string& path : paths) loading.check_numbers(path);
 }
 
 TractionData Archive::load_tractions(const std::vector<int>& columns,

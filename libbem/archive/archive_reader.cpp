@@ -175,7 +175,8 @@ std::vector<std::string> Archive::matrix_paths() const {
   return paths;
 }
 
-void Archive::load_body_force(BodyModel& model) const {
+BodyForce Archive::load_body_force() const {
+  BodyForce force;
   const std::size_t n = unknowns(), components = lag_components();
   const auto lags = static_cast<std::size_t>(discretisation_.history_length);
   const std::string path = std::string(kBodyForcePath) + "/lags";
@@ -183,7 +184,7 @@ void Archive::load_body_force(BodyModel& model) const {
   RowMajor columns(static_cast<Eigen::Index>(n), 6);
   for (std::size_t i = 0; i < lags * components; ++i) {
     file_.read_block(path, {i / components, i % components, 0, 0}, {1, 1, n, 6}, columns.data());
-    model.body_force.emplace_back(columns);
+    force.lags.emplace_back(columns);
   }
   for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
     const std::string group = initial_path("body_force", i);
@@ -193,8 +194,9 @@ void Archive::load_body_force(BodyModel& model) const {
     };
     Eigen::MatrixXcd value = part("/real").cast<Complex>();
     if (is_paired(i)) value.imag() = part("/imaginary");
-    model.initial_body_force.push_back(std::move(value));
+    force.initial.push_back(std::move(value));
   }
+  return force;
 }
 
 BodyModel Archive::load_motion_matrices(const Progress& progress) const {

@@ -11,6 +11,12 @@
 
 namespace bem {
 
+/// The matrices of body forces of a model (model/body_model.hpp).
+struct BodyForce {
+  std::vector<Eigen::MatrixXd> lags;
+  std::vector<Eigen::MatrixXcd> initial;
+};
+
 /// An archive that is open for reading (docs/archive-format.md). The digest of the whole file is
 /// checked first; then everything but the matrices is read. Everything here throws
 /// ErrorCode::archive with a message that names the file if it is missing, damaged or not what this
@@ -41,6 +47,11 @@ class Archive {
   TractionData load_tractions(const std::vector<int>& unknowns,
                               const Progress& progress = nullptr) const;
 
+  BodyForce load_body_force() const;
+
+  /// Reads all matrices and checks their extents and that every number is finite.
+  void check_matrices(const Progress& progress = nullptr) const;
+
   /// Paths of all large matrices, [unknowns, unknowns] each, and reading of some rows of one.
   std::vector<std::string> matrix_paths() const;
   void read_matrix_rows(const std::string& path, std::size_t first, std::size_t rows,
@@ -64,7 +75,6 @@ class Archive {
   std::size_t lag_components() const { return discretisation_.scheme.lag_components().size(); }
   bool is_paired(std::size_t initial_component) const;
   BodyModel load(bool tractions, const Progress& progress) const;
-  void load_body_force(BodyModel& model) const;
 
   UserBlock user_block_;  // checked before the file is opened
   Hdf5File file_;

@@ -20,7 +20,7 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 double overhead_bytes(const BodyGeometry& g, double datasets) {
   const auto vertices = static_cast<double>(g.input.vertices.size() + g.nodes.vertices.size());
   const auto triangles = static_cast<double>(g.input.triangles.size());
-  return 28 * vertices + 28 * triangles + 400 * datasets + 18000;
+  return 28 * vertices + 28 * triangles + 400 * datasets + 7000;
 }
 
 double matrix_bytes(const BodyModel& model) {
@@ -32,6 +32,7 @@ double matrix_bytes(const BodyModel& model) {
       bytes += static_cast<double>(m.real->bytes() + (m.imaginary ? m.imaginary->bytes() : 0));
   for (const auto& m : model.body_force) bytes += 8.0 * static_cast<double>(m.size());
   for (const auto& m : model.initial_body_force) bytes += 16.0 * static_cast<double>(m.size());
+  bytes += 8.0 * static_cast<double>(model.balance.size() + model.traction_balance.size());
   return bytes;
 }
 
@@ -201,6 +202,8 @@ void write_body_force(Hdf5File& file, const BodyModel& model) {
 void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& progress) {
   MatrixWriter writer(file, matrix_bytes(model), progress);
   write_body_force(file, model);
+  write_small(file, kBalancePath, model.balance);
+  write_small(file, kTractionBalancePath, model.traction_balance);
   for (std::size_t i = 0; i < model.inverse.size(); ++i)
     writer.write(initial_path("inverse", i), model.inverse[i]);
   for (std::size_t i = 0; i < model.traction_response.size(); ++i)

@@ -11,6 +11,10 @@ herr_t take_innermost(unsigned index, const H5E_error2_t* error, void* out) {
 }  // namespace
 
 void silence_hdf5() {
+  // At exit the library would close files once more that it could not close because of a full disk,
+  // and crash. Files are closed by their owners.
+  static const herr_t without_exit_handler = H5dont_atexit();
+  static_cast<void>(without_exit_handler);
   thread_local const herr_t done = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   static_cast<void>(done);
 }

@@ -33,7 +33,8 @@ class Hdf5Handle {
   Close close_ = nullptr;
 };
 
-/// Switches the library's own error messages off for this thread (they are a property of threads).
+/// Switches the library's own error messages off for this thread (they are a property of threads),
+/// and its clean-up at exit. To be called before anything else of the library.
 void silence_hdf5();
 
 /// The innermost cause of the library's last failed call, in words; empty if it knows none. To be

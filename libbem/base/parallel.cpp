@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -23,7 +24,16 @@ ThreadLimit& thread_limit() {
   return limit;
 }
 
+std::function<void()>& interruption_check() {
+  static std::function<void()> check;
+  return check;
+}
+
 }  // namespace
+
+void set_interruption_check(std::function<void()> check) {
+  interruption_check() = std::move(check);
+}
 
 void set_thread_count(int n) {
   require(n >= 1, "thread count is at least 1");
@@ -39,14 +49,19 @@ int thread_count() {
 }
 
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
+  const std::function<void()>& check = interruption_check();
+  const auto run = [&](std::size_t i) {
+    if (check) check();
+    body(i);
+  };
   if (n == 1 || thread_count() == 1) {
-    for (std::size_t i = 0; i < n; ++i) body(i);
+    for (std::size_t i = 0; i < n; ++i) run(i);
     return;
   }
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, n, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+        for (std::size_t i = range.begin(); i != range.end(); ++i) run(i);
       },
       tbb::simple_partitioner());
 }

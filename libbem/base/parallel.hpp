@@ -16,4 +16,9 @@ int thread_count();
 /// reductions are summed by the caller in index order. Exceptions of a body reach the caller.
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body);
 
+/// What every later parallel_for calls before each body, on any of its threads: it may throw to
+/// abandon the work, as a command-line tool does after Ctrl-C. Empty: nothing. Not to be changed
+/// while a parallel_for runs.
+void set_interruption_check(std::function<void()> check);
+
 }  // namespace bem

@@ -56,7 +56,8 @@ BilateralConstraints::BilateralConstraints(std::vector<PrescribedNode> nodes, In
   }
 }
 
-void BilateralConstraints::activate(double step_end, const RigidFrame& frame) {
+void BilateralConstraints::activate(double step_end, const RigidFrame& frame,
+                                    const FrameOffset& offset) {
   std::vector<int> active;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const HandleSpec* handle = nodes_[i].handle;
@@ -68,35 +69,58 @@ void BilateralConstraints::activate(double step_end, const RigidFrame& frame) {
   active_ = std::move(active);
   is_active_.assign(nodes_.size(), 0);
   for (int i : active_) is_active_[i] = 1;
-  if (!active_.empty()) factors_.compute(compliance(frame));
+  if (!active_.empty()) factors_.compute(compliance(frame, offset));
   factorised_ = true;
 }
 
-/// d(position in body axes)/d(tractions) of the active nodes, stage by stage.
-Eigen::MatrixXd BilateralConstraints::compliance(const RigidFrame& frame) const {
+/// d(position in body axes)/d(tractions) of the active nodes, stage by stage: deformation, motion
+/// of the frame, and offset from it.
+Eigen::MatrixXd BilateralConstraints::compliance(const RigidFrame& frame,
+                                                 const FrameOffset& offset) const {
   const Scheme& scheme = system_.scheme();
   const int stages = scheme.stages();
   const Eigen::Index block = static_cast<Eigen::Index>(3 * active_.size());
   Eigen::MatrixXd w(stages * block, stages * block);
-  const StageMatrix& inertial = frame.position_by_acceleration();
   for (int a = 0; a < stages; ++a)
     for (int b = 0; b < stages; ++b)
-      for (std::size_t i = 0; i < active_.size(); ++i)
-        for (std::size_t j = 0; j < active_.size(); ++j) {
-          const int p = active_[i], q = active_[j];
-          Mat3 m = inertial(a, b) *
-                   (areas_[q] / frame.mass() * Mat3::Identity() -
-                    cross_matrix(rest_[p]) * frame.inverse_inertia() * cross_matrix(moments_[q]));
-          for (std::size_t c = 0; c < response_.size(); ++c) {
-            const InitialComponent& component = scheme.initial_components()[c];
+      for (std::size_t j = 0; j < active_.size(); ++j) {
+        const int q = active_[j];
+        // rigid displacement (translation, rotation) of the body by the tractions of node q
+        Eigen::Matrix<double, 6, 3> rigid;
+        const double inertial = frame.position_by_acceleration()(a, b);
+        rigid.topRows<3>() = inertial * areas_[q] / frame.mass() * Mat3::Identity();
+        rigid.bottomRows<3>() = inertial * frame.inverse_inertia() * cross_matrix(moments_[q]);
+        for (int c = 0; c < stages; ++c)
+          rigid += offset.gain()(a, c) * acceleration_difference(c, b, q);
+        for (std::size_t i = 0; i < active_.size(); ++i) {
+          const int p = active_[i];
+          Mat3 m = rigid.topRows<3>() - cross_matrix(rest_[p]) * rigid.bottomRows<3>();
+          for (std::size_t s = 0; s < response_.size(); ++s) {
+            const InitialComponent& component = scheme.initial_components()[s];
             m += (component.multiplicity() * component.left[a] * component.right[b] *
-                  response_[c].block<3, 3>(3 * p, 3 * q))
+                  response_[s].block<3, 3>(3 * p, 3 * q))
                      .real();
           }
           w.block<3, 3>(a * block + static_cast<Eigen::Index>(3 * i),
                         b * block + static_cast<Eigen::Index>(3 * j)) = m;
         }
+      }
   return w;
+}
+
+/// d((a', alpha) - balanced value at stage c)/d(tractions of node q at stage b).
+Eigen::Matrix<double, 6, 3> BilateralConstraints::acceleration_difference(int c, int b,
+                                                                          int q) const {
+  const Scheme& scheme = system_.scheme();
+  Eigen::Matrix<double, 6, 3> d = Eigen::Matrix<double, 6, 3>::Zero();
+  for (std::size_t s = 0; s < response_.size(); ++s) {
+    const InitialComponent& component = scheme.initial_components()[s];
+    d -= (component.multiplicity() * component.left[c] * component.right[b] *
+          columns_.acceleration[s].middleCols<3>(3 * q))
+             .real();
+  }
+  if (b == c) d -= columns_.balanced_acceleration.middleCols<3>(3 * q);
+  return d;
 }
 
 Eigen::MatrixXd BilateralConstraints::displacements(const SpectralState& state,

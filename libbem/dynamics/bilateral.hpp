@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dynamics/frame_offset.hpp"
 #include "dynamics/rigid_frame.hpp"
 #include "model/elastic_system.hpp"
 #include "scene/scene.hpp"
@@ -32,12 +33,20 @@ class BilateralConstraints {
   const InputColumns& columns() const { return columns_; }
 
   /// Chooses the constraints that hold at the end of a step; factorises when the choice changes.
-  void activate(double step_end, const RigidFrame& frame);
+  void activate(double step_end, const RigidFrame& frame, const FrameOffset& offset);
   bool any_active() const { return !active_.empty(); }
 
   /// Displacements of all prescribed nodes (unknowns x stages) in `state` plus the effect of nodal
   /// tractions (unknowns x stages).
   Eigen::MatrixXd displacements(const SpectralState& state, const Eigen::MatrixXd& tractions) const;
+
+  /// Adds the frame accelerations z that nodal tractions cause to `state`.
+  void add_accelerations(const Eigen::MatrixXd& tractions, SpectralState& state) const {
+    for (std::size_t c = 0; c < response_.size(); ++c)
+      state.acceleration[c] +=
+          columns_.acceleration[c] *
+          (tractions.cast<Complex>() * system_.scheme().initial_components()[c].right);
+  }
 
   /// World position that node i has to be at, at time t.
   Vec3 target(std::size_t i, double t) const;
@@ -54,7 +63,9 @@ class BilateralConstraints {
   Vec3 torque(const Eigen::VectorXd& tractions) const;
 
  private:
-  Eigen::MatrixXd compliance(const RigidFrame& frame) const;
+  Eigen::MatrixXd compliance(const RigidFrame& frame, const FrameOffset& offset) const;
+
+  Eigen::Matrix<double, 6, 3> acceleration_difference(int c, int b, int q) const;
 
   std::vector<PrescribedNode> nodes_;
   InputColumns columns_;

@@ -19,6 +19,10 @@ InitialMotion initial_motion(const BodySpec& spec, const BodyModel& model, const
   return m;
 }
 
+Vec3 rigid_displacement(const Vector6& offset, const Vec3& x) {
+  return offset.head<3>() + offset.tail<3>().cross(x);
+}
+
 /// The columns of some unknowns out of those that were loaded for all bodies of the archive.
 InputColumns pick_columns(const ElasticSystem& system, const TractionData& all,
                           const std::vector<PrescribedNode>& nodes) {
@@ -45,7 +49,8 @@ Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec
       system_(*shared.system),
       dt_(dt),
       frame_(system_.scheme(), dt, shared.model->geometry.mass,
-             initial_motion(spec, *shared.model, gravity), spec.frame == FrameMotion::stationary) {
+             initial_motion(spec, *shared.model, gravity), spec.frame == FrameMotion::stationary),
+      offset_(system_.scheme(), dt) {
   const int stages = system_.scheme().stages();
   const auto n = static_cast<Eigen::Index>(3 * shared.model->nodes());
   for (const TractionSpec& t : spec_.tractions) {
@@ -110,15 +115,16 @@ RigidFrame::Stages Body::move_frame(const std::vector<Mat3>& rotations) const {
 }
 
 /// How far the prescribed nodes are from their places, in body axes (unknowns x stages).
-Eigen::MatrixXd Body::gaps(const RigidFrame::Stages& stages,
-                           const Eigen::MatrixXd& displacements) const {
+Eigen::MatrixXd Body::gaps(const RigidFrame::Stages& stages, const Eigen::MatrixXd& displacements,
+                           const Eigen::MatrixXd& offsets) const {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(displacements.rows(), displacements.cols());
   for (std::size_t i = 0; i < constraints_->size(); ++i) {
     if (!constraints_->is_active(i)) continue;
     const Vec3& x = shared_.model->geometry.nodes.vertices[constraints_->nodes()[i].node];
     const auto row = static_cast<Eigen::Index>(3 * i);
     for (int a = 0; a < displacements.cols(); ++a) {
-      const Vec3 position = frame_.place(stages, a, x, displacements.col(a).segment<3>(row));
+      const Vec3 u = displacements.col(a).segment<3>(row) + rigid_displacement(offsets.col(a), x);
+      const Vec3 position = frame_.place(stages, a, x, u);
       out.col(a).segment<3>(row) =
           stages.rotation[a].transpose() * (constraints_->target(i, stage_time(a)) - position);
     }
@@ -126,12 +132,33 @@ Eigen::MatrixXd Body::gaps(const RigidFrame::Stages& stages,
   return out;
 }
 
+/// By how much the frame of the elastic solution accelerates beyond the balanced value (6 x s). In
+/// `state` the effect of all loads and tractions of the step is included.
+Eigen::MatrixXd Body::acceleration_differences(const SpectralState& state) const {
+  Eigen::MatrixXd e = system_.acceleration_stages(state);
+  for (const Load& load : loads_) system_.subtract_balance(load.load->columns(), load.stages, e);
+  if (constraints_) system_.subtract_balance(constraints_->columns(), tractions_, e);
+  return e;
+}
+
+/// The window acts on rigid motion like a leak of (1-q)/dt. A free body has a slow leak besides, so
+/// that the small imbalance of the discretisation cannot accumulate.
+void Body::choose_leak() {
+  constexpr double kLeakPerTraversal = 0.05;
+  const BodyModel& m = *shared_.model;
+  const double window = (1 - m.window) / dt_;
+  const double traversal = m.geometry.extent / m.discretisation.material.shear_speed();
+  const bool held = constraints_ && constraints_->any_active();
+  offset_.set_leak(held ? window : std::max(window, kLeakPerTraversal / traversal));
+}
+
 void Body::solve_constraints() {
   constexpr int kMostIterations = 50;
   const double tolerance = 1e-11 * shared_.model->geometry.extent;
   const int stage_count = system_.scheme().stages();
+  choose_leak();
   if (constraints_) {
-    constraints_->activate(stage_time(stage_count - 1), frame_);
+    constraints_->activate(stage_time(stage_count - 1), frame_, offset_);
     constraints_->clear_inactive(tractions_);
   }
   // Rotations enter the loads and the directions of the forces: iterate from the last ones.
@@ -148,7 +175,10 @@ void Body::solve_constraints() {
     if (constraints_ && constraints_->any_active()) {
       SpectralState loaded = state_;
       for (const Load& load : loads_) system_.add_inputs(load.load->columns(), load.stages, loaded);
-      const Eigen::MatrixXd gap = gaps(stages_, constraints_->displacements(loaded, tractions_));
+      const Eigen::MatrixXd u = constraints_->displacements(loaded, tractions_);
+      constraints_->add_accelerations(tractions_, loaded);
+      const Eigen::MatrixXd gap =
+          gaps(stages_, u, offset_.stages(acceleration_differences(loaded)));
       statistics_.residual = gap.cwiseAbs().maxCoeff();
       if (!std::isfinite(statistics_.residual)) break;
       const bool met = statistics_.residual <= tolerance && turn < 1e-12;
@@ -174,9 +204,15 @@ void Body::end_step() {
     traction_history_.push(tractions_);
   }
   const Eigen::MatrixXd u = system_.displacement_stages(state_);
+  const Eigen::MatrixXd e = acceleration_differences(state_);
   displacement_history_.push(u);
   acceleration_history_.push(system_.acceleration_stages(state_));
+  const Vector6 offset = offset_.stages(e).col(u.cols() - 1);
+  offset_.advance(e);
   displacement_ = u.col(u.cols() - 1);
+  const std::vector<Vec3>& x = shared_.model->geometry.nodes.vertices;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    displacement_.segment<3>(static_cast<Eigen::Index>(3 * i)) += rigid_displacement(offset, x[i]);
   frame_.advance(stages_);
   if (!displacement_.allFinite() || !frame_.translation().allFinite())
     throw Error(ErrorCode::numerical,

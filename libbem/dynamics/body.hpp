@@ -59,14 +59,17 @@ class Body {
   double stage_time(int stage) const;
   void evaluate_loads(const std::vector<Mat3>& rotations);
   RigidFrame::Stages move_frame(const std::vector<Mat3>& rotations) const;
-  Eigen::MatrixXd gaps(const RigidFrame::Stages& stages,
-                       const Eigen::MatrixXd& displacements) const;
+  Eigen::MatrixXd acceleration_differences(const SpectralState& state) const;
+  Eigen::MatrixXd gaps(const RigidFrame::Stages& stages, const Eigen::MatrixXd& displacements,
+                       const Eigen::MatrixXd& offsets) const;
+  void choose_leak();
 
   BodySpec spec_;
   SharedModel shared_;
   const ElasticSystem& system_;
   double dt_;
   RigidFrame frame_;
+  FrameOffset offset_;
   std::vector<Load> loads_;
   std::unique_ptr<BilateralConstraints> constraints_;
   LagHistory displacement_history_, acceleration_history_, traction_history_;

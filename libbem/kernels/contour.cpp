@@ -26,6 +26,21 @@ LaneLayout::LaneLayout(const Scheme& scheme, int last) : initial(0), last_lag(la
   components = static_cast<int>(scheme.lag_components().size());
 }
 
+std::vector<double> static_lane_factors(const Scheme& scheme, const LaneLayout& layout) {
+  // all stages see the same constant input; the last stage is the new value
+  const int last_stage = scheme.stages() - 1;
+  std::vector<double> factors;
+  for (const InitialComponent& c : scheme.initial_components()) {
+    const Complex f = c.multiplicity() * c.left[last_stage] * c.right.sum();
+    factors.push_back(f.real());
+    if (c.paired) factors.push_back(-f.imag());
+  }
+  for (int k = 1; k <= layout.last_lag; ++k)
+    for (const LagComponent& c : scheme.lag_components())
+      factors.push_back(c.left[last_stage] * c.right.sum());
+  return factors;
+}
+
 struct ContourQuadrature::Transform {
   explicit Transform(int length) : n(length) {
     const FftwComplex in(fftw_alloc_complex(n / 2 + 1));

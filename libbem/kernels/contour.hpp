@@ -22,6 +22,9 @@ struct LaneLayout {
   int count() const { return initial + last_lag * components; }
 };
 
+/// Factors that make the static value X(0) out of the lanes of a closed sequence of weights.
+std::vector<double> static_lane_factors(const Scheme& scheme, const LaneLayout& layout);
+
 /// Convolution quadrature weights of arbitrary transfer functions by the contour formula (M9) with
 /// L = 4 (last_lag + 1) points and aliasing parameter 1e-14: absolute error about 1e-14 of the
 /// function's size. Immutable after construction; weights() may be called from several threads.

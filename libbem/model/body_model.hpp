@@ -37,6 +37,10 @@ struct BodyModel {
   std::vector<Eigen::MatrixXcd> initial_body_force;  ///< [D_0 Q_0] by initial component, 3N x 6
   std::vector<SpectralMatrix> inverse;               ///< H_0^{-1} by initial component
   std::vector<SpectralMatrix> traction_response;     ///< H_0^{-1} G_0 by initial component
+  /// The static equation H(0) u = b + D(0) a' + Q(0) alpha can be solved for u only with the
+  /// accelerations (a', alpha) = balance * b: the discrete form of force = mass x acceleration.
+  Eigen::MatrixXd balance;           ///< 6 x 3N
+  Eigen::MatrixXd traction_balance;  ///< balance * G(0): 6 x 3N, by nodal tractions
   ModelReport report;
 
   std::size_t nodes() const { return geometry.nodes.vertices.size(); }

@@ -36,6 +36,7 @@ struct InputColumns {
   std::vector<Eigen::MatrixXd> lags;           ///< right-hand side at lag >= 1, 3N x inputs
   std::vector<Eigen::MatrixXcd> displacement;  ///< projected H_0^{-1} b_0 by initial component
   std::vector<Eigen::MatrixXcd> acceleration;  ///< z of it, 6 x inputs
+  Eigen::MatrixXd balanced_acceleration;       ///< (a', alpha) of constant inputs, 6 x inputs
 
   Eigen::Index inputs() const { return displacement.empty() ? 0 : displacement[0].cols(); }
 };
@@ -82,6 +83,12 @@ class ElasticSystem {
 
   /// The accelerations of the frame as inputs (only their history is used).
   const InputColumns& body_force() const { return body_force_; }
+  /// (a', alpha) minus its balanced value at the stages (6 x s) that inputs contribute; what the
+  /// history contributes is acceleration_stages() of its state.
+  void subtract_balance(const InputColumns& columns, const Eigen::MatrixXd& stages,
+                        Eigen::MatrixXd& accelerations) const {
+    accelerations.noalias() -= columns.balanced_acceleration * stages;
+  }
   const RigidProjection& projection() const { return projection_; }
   const BodyModel& model() const { return model_; }
   const Scheme& scheme() const { return model_.discretisation.scheme; }

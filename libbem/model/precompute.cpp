@@ -16,7 +16,12 @@ constexpr int kTileVertices = 8;
 
 /// The system matrices of lag 0 while they are still to be factorised, by initial component.
 struct InitialSystem {
-  std::vector<DenseMatrix<Complex>> h, g;  // Complex also for real components: see make_real()
+  std::vector<DenseMatrix<Complex>> h, g;  // complex also where a component is real
+};
+
+/// The static matrices: H(0) transposed, for its left null space, and G(0).
+struct StaticSystem {
+  DenseMatrix<double> h_transposed, g;
 };
 
 template <class T>
@@ -30,8 +35,13 @@ std::vector<std::unique_ptr<StoredMatrix>> make_stores(std::size_t count, std::s
 template <class T, class Stored>
 class RowDistributor {
  public:
-  RowDistributor(const RowAssembler& assembler, BodyModel& model, InitialSystem& initial)
-      : layout_(assembler.layout()), model_(model), initial_(initial) {}
+  RowDistributor(const RowAssembler& assembler, BodyModel& model, InitialSystem& initial,
+                 StaticSystem& at_rest)
+      : layout_(assembler.layout()),
+        static_factors_(static_lane_factors(model.discretisation.scheme, layout_)),
+        model_(model),
+        initial_(initial),
+        at_rest_(at_rest) {}
 
   void lags(int i, const BlockRow<T>& row) {
     const int n = static_cast<int>(model_.nodes());
@@ -49,6 +59,22 @@ class RowDistributor {
           }
       }
     }
+  }
+
+  void static_row(int i, const BlockRow<T>& row) {
+    const int n = static_cast<int>(model_.nodes());
+    const auto sum = [this](const T* lanes) {
+      double total = 0;
+      for (int lane = 0; lane < layout_.count(); ++lane)
+        total += static_factors_[lane] * lanes[lane];
+      return total;
+    };
+    for (int j = 0; j < n; ++j)
+      for (int e = 0; e < 9; ++e) {
+        const int r = 3 * i + e / 3, c = 3 * j + e % 3;
+        at_rest_.h_transposed(c, r) = sum(row.h_block(j) + e * row.padded_lanes);
+        at_rest_.g(r, c) = sum(row.g_block(j) + kSymmetric[e] * row.padded_lanes);
+      }
   }
 
   void body_force(int i, const BlockRow<T>& row) {
@@ -100,16 +126,18 @@ class RowDistributor {
   }
 
   LaneLayout layout_;
+  std::vector<double> static_factors_;
   BodyModel& model_;
   InitialSystem& initial_;
+  StaticSystem& at_rest_;
 };
 
 template <class T, class Stored>
 void assemble(const RowAssembler& assembler, BodyModel& model, InitialSystem& initial,
-              const Progress& progress) {
+              StaticSystem& at_rest, const Progress& progress) {
   const int n = static_cast<int>(model.nodes());
   const std::size_t tiles = (n + kTileVertices - 1) / kTileVertices;
-  RowDistributor<T, Stored> distribute(assembler, model, initial);
+  RowDistributor<T, Stored> distribute(assembler, model, initial, at_rest);
   std::vector<double> residuals(n, 0.0);
   std::atomic<std::size_t> done{0};
   parallel_for(tiles, [&](std::size_t tile) {
@@ -121,6 +149,7 @@ void assemble(const RowAssembler& assembler, BodyModel& model, InitialSystem& in
       residuals[first + v] = assembler.assemble(first + v, true, work, rows[v]);
       distribute.lags(first + v, rows[v]);
       distribute.body_force(first + v, rows[v]);
+      distribute.static_row(first + v, rows[v]);
     }
     distribute.initial_rows(first, rows, count);
     if (progress) progress("assembly", static_cast<double>(++done) / static_cast<double>(tiles));
@@ -199,6 +228,38 @@ void invert_initial(BodyModel& model, InitialSystem& initial, const Progress& pr
   }
 }
 
+/// Left null vectors N (3N x 6) of H(0) by inverse iteration: N^T H(0) u = 0 for every u. With
+/// them, N^T (b + D a' + Q alpha) = 0 gives the accelerations that balance a load b.
+void compute_balance(BodyModel& model, StaticSystem&& at_rest, const Progress& progress) {
+  if (progress) progress("static balance", 0);
+  const Scheme& scheme = model.discretisation.scheme;
+  const LaneLayout layout(scheme, model.discretisation.history_length);
+  const std::vector<double> factors = static_lane_factors(scheme, layout);
+  const auto n = at_rest.g.rows();
+  Eigen::MatrixXd body_force = Eigen::MatrixXd::Zero(n, 6);
+  for (std::size_t i = 0, lane = 0; i < model.initial_body_force.size(); ++i) {
+    body_force += factors[lane++] * model.initial_body_force[i].real();
+    if (scheme.initial_components()[i].paired)
+      body_force += factors[lane++] * model.initial_body_force[i].imag();
+  }
+  for (std::size_t k = 0; k < model.body_force.size(); ++k)
+    body_force += factors[layout.initial + k] * model.body_force[k];
+
+  constexpr double kShift = 1e-10;  // keeps the singular matrix factorisable
+  at_rest.h_transposed.diagonal().array() += kShift;
+  const Lu<double> lu(std::move(at_rest.h_transposed));
+  DenseMatrix<double> null = body_force;  // not orthogonal to the null space: the balance exists
+  constexpr int kIterations = 4;
+  for (int i = 0; i < kIterations; ++i) {
+    null = Eigen::HouseholderQR<DenseMatrix<double>>(null).householderQ() *
+           DenseMatrix<double>::Identity(n, 6);
+    lu.solve(null);
+  }
+  const Eigen::Matrix<double, 6, 6> inertia = null.transpose() * body_force;
+  model.balance = -inertia.inverse() * null.transpose();
+  model.traction_balance = model.balance * at_rest.g;
+}
+
 template <class T, class Stored>
 void compute_matrices(BodyModel& model, const Progress& progress) {
   const RowAssembler assembler(model.geometry.nodes, model.geometry.extent, model.discretisation);
@@ -212,7 +273,9 @@ void compute_matrices(BodyModel& model, const Progress& progress) {
   InitialSystem initial;
   initial.h.assign(components, DenseMatrix<Complex>(n, n));
   initial.g.assign(components, DenseMatrix<Complex>(n, n));
-  assemble<T, Stored>(assembler, model, initial, progress);
+  StaticSystem at_rest{DenseMatrix<double>(n, n), DenseMatrix<double>(n, n)};
+  assemble<T, Stored>(assembler, model, initial, at_rest, progress);
+  compute_balance(model, std::move(at_rest), progress);
   invert_initial<Stored>(model, initial, progress);
 }
 
@@ -260,7 +323,8 @@ MemoryEstimate precompute_memory(std::size_t nodes, const PrecomputeOptions& opt
   // lag 0 is complex double while it is factorised; the stored copies replace it one by one
   const double lags = square * entry * 2 * (layout.count() - layout.initial);
   const double initial = square * 16 * 2 * static_cast<double>(scheme.initial_components().size());
-  e.peak = std::max(lags + initial, e.stored + square * 16);
+  const double at_rest = square * 8 * 2;
+  e.peak = std::max(lags + initial + at_rest, e.stored + square * 16);
   return e;
 }
 

@@ -44,12 +44,12 @@ TEMPLATE_TEST_CASE("LU solves and inverts in place", "", double, Complex) {
   }
 }
 
-TEST_CASE("results are bit-identical for any number of threads") {
-  const DenseMatrix<double> a = test_matrix<double>(900, 900);
-  std::vector<DenseMatrix<double>> inverses;
+TEMPLATE_TEST_CASE("results are bit-identical for any number of threads", "", double, Complex) {
+  const DenseMatrix<TestType> a = test_matrix<TestType>(900, 900);
+  std::vector<DenseMatrix<TestType>> inverses;
   for (int threads : {1, 2, 7}) {
     set_thread_count(threads);
-    inverses.push_back(Lu<double>(DenseMatrix<double>(a)).invert());
+    inverses.push_back(Lu<TestType>(DenseMatrix<TestType>(a)).invert());
   }
   CHECK(inverses[0] == inverses[1]);
   CHECK(inverses[0] == inverses[2]);

@@ -26,3 +26,19 @@ TEST_CASE("an exception of a parallel body reaches the caller") {
                       bem::Error);
   }
 }
+
+TEST_CASE("the interruption check runs before every body and can abandon the work") {
+  for (int threads : {1, 3}) {
+    bem::set_thread_count(threads);
+    std::atomic<int> checks{0}, bodies{0};
+    bem::set_interruption_check([&] {
+      if (++checks > 5) throw bem::Error(bem::ErrorCode::numerical, "stop");
+    });
+    CHECK_NOTHROW(bem::parallel_for(5, [&](std::size_t) { ++bodies; }));
+    CHECK(bodies == 5);
+    CHECK_THROWS_AS(bem::parallel_for(100, [&](std::size_t) { ++bodies; }), bem::Error);
+    CHECK(bodies == 5);
+    bem::set_interruption_check(nullptr);
+    CHECK_NOTHROW(bem::parallel_for(100, [](std::size_t) {}));
+  }
+}

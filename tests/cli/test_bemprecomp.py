@@ -1,0 +1,244 @@
+"""bemprecomp: inputs, options, exit codes, and what is left behind."""
+import json
+import os
+import re
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+from cli_case import BEMPRECOMP, DATA, CliCase
+
+INPUTS = ["rubber.json", "sphere.obj"]
+
+# What the message about each bad mesh must name.
+BAD_MESHES = {
+    "inconsistent_orientation": "edge",
+    "index_out_of_range": ":",
+    "no_triangle": "no triangle",
+    "nonfinite": "finite",
+    "nonmanifold_edge": "edge",
+    "nonmanifold_vertex": "vertex",
+    "open_boundary": "edge",
+    "repeated_vertex": ":",
+    "short_face": ":",
+    "unparsable_number": ":",
+    "zero_area": "triangle",
+    "zero_volume": "volume",
+}
+
+
+class Inputs(CliCase):
+    def test_bad_meshes_are_refused(self):
+        meshes = sorted((DATA / "bad_meshes").glob("*.obj"))
+        self.assertEqual({m.stem for m in meshes}, set(BAD_MESHES))
+        for mesh in meshes:
+            with self.subTest(mesh=mesh.name):
+                done = self.run_tool(mesh, "rubber.json", "-o", "a.bem", "--dt", 0.01, code=3)
+                self.assert_error(done, mesh.name, BAD_MESHES[mesh.stem])
+        self.assertEqual(self.files(), INPUTS)
+
+    def test_missing_or_broken_inputs(self):
+        for mesh, material in [("none.obj", "rubber.json"), ("sphere.obj", "none.json"),
+                               ("sphere.obj", "sphere.obj"), (".", "rubber.json")]:
+            with self.subTest(mesh=mesh, material=material):
+                done = self.run_tool(mesh, material, "-o", "a.bem", "--dt", 0.01, code=3)
+                self.assert_error(done, mesh if mesh != "sphere.obj" else material)
+        self.material("bad.json", poisson_ratio=0.7)
+        done = self.run_tool("sphere.obj", "bad.json", "-o", "a.bem", "--dt", 0.01, code=3)
+        self.assert_error(done, "bad.json:1:", "/poisson_ratio")
+        self.assertEqual(self.files(), ["bad.json", *INPUTS])
+
+    def test_time_step_comes_from_option_or_material(self):
+        done = self.run_tool("sphere.obj", "rubber.json", "-o", "a.bem", code=2)
+        self.assert_error(done, "--dt", "time_step")
+        self.material("timed.json", time_step=0.01)
+        for arguments, dt in [([], 0.01), (["--dt", "0.02"], 0.02)]:
+            self.run_tool("sphere.obj", "timed.json", "-o", "a.bem", "--force", *arguments)
+            info = json.loads(self.run_tool("--info", "a.bem", "--json").stdout)
+            self.assertEqual(info["scheme"]["dt"], dt)
+
+    def test_mesh_scale(self):
+        self.precompute("--mesh-scale", 2)
+        info = json.loads(self.run_tool("--info", "a.bem", "--json").stdout)
+        self.assertAlmostEqual(info["body"]["extent"], 0.4, 12)
+        self.assertEqual(info["provenance"]["mesh_scale"], 2)
+
+    def test_mesh_warnings_do_not_stop(self):
+        text = (self.folder / "sphere.obj").read_text()
+        flipped = re.sub(r"^f (\d+) (\d+) (\d+)$", r"f \1 \3 \2", text, flags=re.M)
+        self.assertNotEqual(text, flipped)
+        (self.folder / "sphere.obj").write_text(flipped)
+        self.assertRegex(self.precompute("-q").stderr, r"^warning: sphere\.obj: .*outward")
+
+
+class Usage(CliCase):
+    def test_wrong_command_lines(self):
+        wrong = [
+            (["--dt", "0"], "--dt"), (["--dt", "-1"], "--dt"), (["--dt", "nan"], "--dt"),
+            (["--dt", "inf"], "--dt"), (["--dt", "x"], "--dt"), (["--dt", "1e-12"], "--dt"),
+            (["--scheme", "rk4"], "radau2"), (["--scheme", "theta:2"], "theta"),
+            (["--window", "0"], "--window"), (["--window", "1.5"], "--window"),
+            (["--window", "off"], "--window"),
+            (["--model", "static"], "not supported yet"), (["--model", "rigid"], "not supported"),
+            (["--model", "x"], "--model"),
+            (["--codec", "haar"], "not supported yet"), (["--codec", "lowrank"], "not supported"),
+            (["--codec", "zip"], "--codec"), (["--codec-tol", "1e-3"], "--codec"),
+            (["--compression-ratio", "4"], "haar"),
+            (["--corner-angle-deg", "40"], "not supported yet"),
+            (["--damping", "0.1"], "not supported yet"), (["--damping"], "not supported yet"),
+            (["--history", "0"], "--history"), (["--history-tol", "2"], "--history-tol"),
+            (["--history", "9", "--history-tol", "1e-3"], "--history-tol"),
+            (["--quadrature-tol", "0"], "--quadrature-tol"), (["--mesh-scale", "0"], "--mesh-scale"),
+            (["--threads", "0"], "--threads"), (["--precision", "float16"], "float32"),
+            (["--thread", "1"], "did you mean --threads?"), (["--dtt=1"], "did you mean --dt"),
+            (["-q", "-v"], "--quiet"), (["--json"], "--info"), (["third.obj"], "third.obj"),
+            (["--log-file", "sphere.obj"], "sphere.obj"), (["--stats", "rubber.json"], "rubber"),
+        ]
+        for arguments, part in wrong:
+            with self.subTest(arguments=arguments):
+                base = ["sphere.obj", "rubber.json", "-o", "a.bem"]
+                dt = [] if any(a.startswith("--dt") for a in arguments) else ["--dt", "0.01"]
+                self.assert_error(self.run_tool(*base, *dt, *arguments, code=2), part)
+        for arguments in [[], ["sphere.obj"], ["sphere.obj", "rubber.json", "--dt", "1"],
+                          ["--info"], ["--diff", "a"], ["--info", "a", "--verify", "a"]]:
+            with self.subTest(arguments=arguments):
+                self.assert_error(self.run_tool(*arguments, code=2))
+        self.assertEqual(self.files(), INPUTS)
+
+    def test_outputs_must_not_destroy_inputs(self):
+        before = (self.folder / "sphere.obj").read_bytes()
+        done = self.precompute("--force", output="./sphere.obj", code=2)
+        self.assert_error(done, "sphere.obj", "input")
+        self.assertEqual((self.folder / "sphere.obj").read_bytes(), before)
+
+    def test_help_and_version(self):
+        self.assertRegex(self.run_tool("--version").stdout, r"^bem \d+\.\d+\.\d+\n$")
+        text = self.run_tool("--help").stdout
+        for option in ["--dt", "--scheme", "--window", "--model", "--history-tol", "--history",
+                       "--quadrature-tol", "--codec", "--codec-tol", "--compression-ratio",
+                       "--corner-angle-deg", "--damping", "--mesh-scale", "--threads", "--dry-run",
+                       "--stats", "--force", "--quiet", "--verbose", "--log-file", "--version",
+                       "--info", "--json", "--verify", "--diff"]:
+            self.assertIn(option, text)
+
+    def test_overwriting_needs_force(self):
+        (self.folder / "a.bem").write_text("mine")
+        self.assert_error(self.precompute(code=2), "a.bem", "--force")
+        self.assertEqual((self.folder / "a.bem").read_text(), "mine")
+        self.precompute("--force")
+        self.run_tool("--verify", "a.bem")
+
+
+class Messages(CliCase):
+    def test_verbosity_and_log_file(self):
+        self.assertEqual(self.precompute("-q", output="q.bem").stderr, "")
+        normal = self.precompute(output="n.bem")
+        self.assertIn("info: ", normal.stderr)
+        self.assertNotIn("detail: ", normal.stderr)
+        self.assertEqual(normal.stdout, "")
+        self.assertNotIn("\r", normal.stderr)  # no progress bar without a terminal
+        verbose = self.precompute("-v", "--log-file", "log.txt", output="v.bem")
+        self.assertIn("detail: assembly", verbose.stderr)
+        self.assertEqual((self.folder / "log.txt").read_text(), verbose.stderr)
+
+    def test_errors_reach_the_log_file(self):
+        done = self.run_tool("--info", "none.bem", "--log-file", "log.txt", code=4)
+        self.assertEqual((self.folder / "log.txt").read_text(), done.stderr)
+
+    def test_long_history_is_warned_about(self):
+        self.assertIn("warning: the history is long: 61 steps",
+                      self.precompute("--history", "61", "--dry-run").stderr)
+        self.assertNotIn("warning", self.precompute("--history", "60", "--dry-run").stderr)
+
+    def test_growth_is_warned_about(self):
+        # a history that is cut far too short blows up
+        base = ["sphere.obj", "rubber.json", "--dt", "0.002", "--scheme", "bdf1", "--history", "2"]
+        for window, message in [("1", "motions grow by a factor of .*--window auto"),
+                                ("auto", "motions would grow by a factor of .* the window 0\\.")]:
+            with self.subTest(window=window):
+                done = self.run_tool(*base, "-o", "a.bem", "--force", "--window", window,
+                                     "--stats", "s.json", "-q")
+                stats = json.loads((self.folder / "s.json").read_text())
+                self.assertGreater(stats["report"]["growth"], 1.5)
+                self.assertRegex(done.stderr, f"^warning: {message}")
+                self.assertEqual("warning: " + stats["warnings"][0], done.stderr.rstrip("\n"))
+                if window == "auto":
+                    grown = stats["scheme"]["window"] * stats["report"]["growth"]
+                    self.assertAlmostEqual(grown, 1, 5)
+                    self.assertLessEqual(grown, 1)
+        self.assertNotIn("motions", self.precompute("--force").stderr)
+
+    def test_dry_run_writes_nothing(self):
+        for output in [["-o", "a.bem"], []]:
+            done = self.run_tool("sphere.obj", "rubber.json", "--dt", "0.01", "--dry-run", *output)
+            for word in ["lam:", "n_max:", "memory:", "archive size:", "time:"]:
+                self.assertIn(word, done.stdout)
+        self.assertEqual(self.files(), INPUTS)
+
+    def test_stats(self):
+        self.precompute("--stats", "s.json", "--threads", "1")
+        stats = json.loads((self.folder / "s.json").read_text())
+        self.assertEqual(stats["threads"], 1)
+        self.assertEqual(stats["archive_bytes"], os.path.getsize(self.folder / "a.bem"))
+        self.assertEqual(stats["body"]["nodes"], 42)
+        self.assertGreater(stats["peak_memory_bytes"], 1e6)
+        names = [phase["name"] for phase in stats["phases"]]
+        for name in ["mesh", "assembly", "factorisation", "inverse", "growth factor", "writing"]:
+            self.assertIn(name, names)
+        self.assertEqual(len(names), len(set(names)))
+        self.assertAlmostEqual(sum(p["wall_seconds"] for p in stats["phases"]),
+                               stats["wall_seconds"], 6)
+        for key in ["lam", "row_sum_residual", "rotation_residual", "condition", "growth"]:
+            self.assertGreater(stats["report"][key], 0)
+        self.assertEqual(self.files(), ["a.bem", "rubber.json", "s.json", "sphere.obj"])
+
+
+class Resources(CliCase):
+    def test_folders_that_cannot_be_written(self):
+        for output in ["none/a.bem", "/proc/a.bem", "sphere.obj/a.bem"]:
+            with self.subTest(output=output):
+                self.assert_error(self.precompute(output=output, code=6), output)
+        self.assert_error(self.precompute("--stats", "none/s.json", code=6), "none/s.json")
+        self.assert_error(self.precompute("--log-file", "none/log", code=6), "none/log")
+        self.assertEqual(self.files(), INPUTS)
+
+    def test_a_disk_that_fills_up_leaves_nothing(self):
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (300000, 300000))
+        done = self.precompute(code=6, preexec_fn=limit, restore_signals=False)
+        self.assert_error(done, "a.bem")
+        self.assertEqual(self.files(), INPUTS)
+
+    def test_too_large_a_problem_is_refused_before_it_starts(self):
+        start = time.monotonic()
+        done = self.precompute("--history", "100000", "--precision", "float64", "--scheme",
+                               "radau2", code=6)
+        self.assert_error(done, "memory", "GB")
+        self.assertLess(time.monotonic() - start, 10)
+        self.assertEqual(self.files(), INPUTS)
+
+    def test_interruption_leaves_nothing(self):
+        self.sphere(3)
+        for sent, code in [(signal.SIGINT, 130), (signal.SIGTERM, 143)]:
+            with self.subTest(signal=sent):
+                process = subprocess.Popen(
+                    [BEMPRECOMP, "sphere.obj", "rubber.json", "-o", "a.bem", "--dt", "0.001",
+                     "--stats", "s.json", "-v"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+                for line in process.stderr:
+                    if line == "detail: assembly\n":
+                        break
+                process.send_signal(sent)
+                start = time.monotonic()
+                rest = process.stderr.read()
+                self.assertEqual(process.wait(timeout=30), code, rest)
+                process.stderr.close()
+                self.assertLess(time.monotonic() - start, 10)
+                self.assertIn("error: interrupted", rest)
+                self.assertEqual(self.files(), INPUTS)
+
+
+if __name__ == "__main__":
+    unittest.main()

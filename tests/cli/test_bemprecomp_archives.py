@@ -1,0 +1,126 @@
+"""bemprecomp: the archives it writes, and --info, --verify and --diff."""
+import json
+import os
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import unittest
+
+import h5py
+import numpy as np
+
+from cli_case import CliCase
+
+
+class Archives(CliCase):
+    def bytes_of(self, name):
+        return (self.folder / name).read_bytes()
+
+    def test_same_bytes_for_any_thread_count(self):
+        self.sphere(2)
+        for threads in [1, 2]:
+            self.run_tool("sphere.obj", "rubber.json", "--dt", "0.004", "-o", f"{threads}.bem",
+                          "--threads", threads, "-q")
+        self.assertGreater(len(self.bytes_of("1.bem")), 1000000)
+        self.assertTrue(self.bytes_of("1.bem") == self.bytes_of("2.bem"))
+
+    def test_info(self):
+        self.precompute()
+        text = self.run_tool("--info", "a.bem").stdout
+        for part in ["42 nodes", "rubber", "bdf1", "dt 0.01 s", "sphere.obj", "--scheme bdf1"]:
+            self.assertIn(part, text)
+        info = json.loads(self.run_tool("--info", "a.bem", "--json").stdout)
+        self.assertEqual(info["format_version"], 1)
+        self.assertEqual(info["bytes"], len(self.bytes_of("a.bem")))
+        self.assertEqual(info["body"]["nodes"], 42)
+        self.assertEqual(info["body"]["triangles"], 80)
+        self.assertEqual(info["material"], {"name": "rubber", "density": 1000, "poisson_ratio": 0.3,
+                                            "shear_modulus": 1e5})
+        self.assertEqual(info["scheme"]["name"], "bdf1")
+        self.assertAlmostEqual(info["body"]["mass"], 1000 * info["body"]["volume"])
+        self.assertEqual(self.run_tool("--verify", "a.bem").stdout, "a.bem: intact\n")
+
+    def test_damaged_archives(self):
+        self.precompute()
+        good = self.bytes_of("a.bem")
+        rng = random.Random(7)
+        place = rng.randrange(4096, len(good))
+        flipped = bytearray(good)
+        flipped[place] ^= 16
+        newer = good.replace(b"format version: 1\n", b"format version: 9\n")
+        with h5py.File(self.folder / "foreign.h5", "w") as file:
+            file["x"] = [1, 2, 3]
+        damaged = {
+            "truncated": (good[:len(good) // 2], "damaged"), "flipped": (bytes(flipped), "damaged"),
+            "longer": (good + b"\0", "damaged"), "empty": (b"", "empty"),
+            "text": (b"hello\n", "not an archive"), "no_user_block": (good[4096:], "HDF5"),
+            "newer": (newer, "version 9"),
+            "foreign": (self.bytes_of("foreign.h5"), "not an archive"),
+        }
+        for name, (content, part) in damaged.items():
+            (self.folder / name).write_bytes(content)
+            for arguments in [("--info", name), ("--verify", name), ("--diff", "a.bem", name)]:
+                with self.subTest(arguments=arguments):
+                    self.assert_error(self.run_tool(*arguments, code=4), name, part)
+        for name in ["none.bem", "."]:
+            self.assert_error(self.run_tool("--verify", name, code=4), name)
+
+    def test_diff(self):
+        self.precompute()
+        self.precompute(output="same.bem")
+        self.assertEqual(self.run_tool("--diff", "a.bem", "same.bem").stdout, "identical\n")
+
+        self.precompute("--precision", "float64", output="double.bem")
+        lines = self.run_tool("--diff", "a.bem", "double.bem", code=1).stdout.splitlines()
+        self.assertIn('precision: "float32" and "float64"', lines)
+        for matrix in ["h/lag_001", "g/lag_002", "inverse", "traction_response"]:
+            found = [line for line in lines if line.startswith(f"matrices/{matrix}/component_0")]
+            self.assertEqual(len(found), 1, lines)
+            error = float(found[0].split("relative error ")[1])
+            self.assertGreater(error, 1e-9)
+            self.assertLess(error, 1e-5)
+
+        self.precompute("--window", "0.5", output="window.bem")
+        lines = self.run_tool("--diff", "a.bem", "window.bem", code=1).stdout.splitlines()
+        self.assertTrue(any(line.startswith("scheme/window: ") for line in lines), lines)
+        self.assertFalse(any(line.startswith("matrices/") for line in lines), lines)
+
+        self.sphere(2)
+        self.precompute("--force", output="finer.bem")
+        text = self.run_tool("--diff", "a.bem", "finer.bem", code=1).stdout
+        self.assertIn("body/nodes: 42 and 162", text)
+        self.assertIn("cannot be compared", text)
+
+    def test_a_rigid_translation_costs_no_force(self):
+        """Reads an archive as its documentation says: H_0 T is tiny for a large time step."""
+        self.run_tool("sphere.obj", "rubber.json", "--dt", "100", "--scheme", "bdf1", "-o", "a.bem",
+                      "--precision", "float64")
+        with h5py.File(self.folder / "a.bem") as archive:
+            inverse = archive["matrices/inverse/component_0/real"][:]
+            later = sum(archive[f"matrices/h/{lag}/component_0"][:]
+                        for lag in archive["matrices/h"])
+            body = archive["matrices/body_force/component_0/real"][:, :3]
+            faces, vertices = archive["mesh/faces"][:], archive["mesh/vertices"][:]
+            self.assertEqual(archive["scheme"].attrs["name"], "bdf1")
+        h0 = np.linalg.inv(inverse)
+        translation = np.tile(np.eye(3), (len(h0) // 3, 1))
+        # (M43) at lag 0: H_0 T = -(1/dt)^2 D_0, and nothing that a rigid body feels in all lags
+        self.assertLess(np.abs(h0 @ translation + body / 100**2).max(), 1e-9)
+        self.assertLess(np.abs((h0 + later) @ translation).max(), 1e-9)
+        self.assertEqual(faces.shape, (80, 3))
+        self.assertAlmostEqual(np.linalg.norm(vertices, axis=1).max(), 0.1, 12)
+
+    def test_examples_of_the_documentation_run(self):
+        self.run_tool("sphere.obj", "rubber.json", "-o", "sphere.bem", "--dt", "0.01")
+        text = (pathlib.Path(os.environ["BEM_DOCS"]) / "archive-format.md").read_text()
+        examples = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+        self.assertEqual(len(examples), 2)
+        outputs = [subprocess.run([sys.executable, "-c", example], cwd=self.folder, text=True,
+                                  check=True, capture_output=True).stdout for example in examples]
+        self.assertRegex(outputs[0], r"^radau2 0\.01 \(42, 3\)\n\(2, 2, 126, 126\) -?\d")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,233 @@
+#include "options.hpp"
+
+#include "base/error.hpp"
+#include "common/cli.hpp"
+#include "kernels/scheme.hpp"
+#include "mesh/describe.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <numeric>
+
+#include <CLI/CLI.hpp>
+
+namespace bem {
+namespace {
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw Error(ErrorCode::usage, text);
+}
+
+/// What was typed, before it is checked.
+struct Typed {
+  Options options;
+  std::string info, verify;
+  std::vector<std::string> diff, damping;
+  std::string window = "auto", model = "dynamic", codec = "none", corner_angle = "none",
+              precision = "float32";
+  std::optional<double> codec_tolerance, compression_ratio;
+};
+
+void add_options(CLI::App& app, Typed& t) {
+  Options& o = t.options;
+  app.add_option("MESH", o.mesh, "closed triangle mesh in any format that assimp reads");
+  app.add_option("MATERIAL", o.material, "material JSON");
+  app.add_option("-o,--output", o.output, "archive to write (BODY.bem)");
+  app.add_option("--dt", o.dt, "time step [s]; default: the material's \"time_step\"");
+  app.add_option("--scheme", o.scheme, "radau2, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2)");
+  app.add_option("--window", t.window,
+                 "factor 0 < q <= 1 on the weights per lag, 1 for none; auto: the weakest that "
+                 "makes the measured growth <= 1 (auto)");
+  app.add_option("--model", t.model, "dynamic; static and rigid are not supported yet (dynamic)");
+  app.add_option("--history-tol", o.history_tolerance,
+                 "length of the history from the size of the weights beyond it");
+  app.add_option("--history", o.history,
+                 "length of the history in steps; default: from the time that shear waves need to "
+                 "cross the body");
+  app.add_option("--quadrature-tol", o.quadrature_tolerance,
+                 "relative error aimed at by the spatial quadrature (1e-6)");
+  app.add_option("--codec", t.codec, "none; haar and lowrank are not supported yet (none for now)");
+  app.add_option("--codec-tol", t.codec_tolerance, "relative error aimed at by the codec");
+  app.add_option("--compression-ratio", t.compression_ratio,
+                 "entries before / entries kept (haar)");
+  app.add_option("--precision", t.precision, "float32 or float64 matrices (float32)");
+  app.add_option("--corner-angle-deg", t.corner_angle,
+                 "double nodes along sharp edges: none; angles are not supported yet (none)");
+  app.add_option("--damping", t.damping, "material damping: not supported yet")->expected(0, -1);
+  app.add_option("--mesh-scale", o.mesh_scale, "factor on the coordinates of the mesh (1)");
+  app.add_option("--threads", o.threads, "worker threads (all cores)");
+  app.add_flag("--dry-run", o.dry_run, "print memory, time and archive size expected, then stop");
+  app.add_option("--stats", o.stats, "JSON file for time and memory by phase, sizes and errors");
+  app.add_flag("--force", o.force, "overwrite an existing archive");
+  app.add_flag("-q,--quiet", o.quiet, "only warnings and errors");
+  app.add_flag("-v,--verbose", o.verbose, "also details");
+  app.add_option("--log-file", o.log_file, "file for all messages");
+  app.add_option("--info", t.info, "print what is in an archive");
+  app.add_flag("--json", o.json, "with --info: as JSON");
+  app.add_option("--verify", t.verify, "check an archive: exit code 0 or 4");
+  app.add_option("--diff", t.diff, "compare two archives: exit code 0 (equal) or 1")->expected(2);
+}
+
+/// Number of single-character edits that make one text of the other.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t(0));
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+    }
+  }
+  return row[b.size()];
+}
+
+/// "; did you mean --threads?", or nothing if no option is similar.
+std::string suggestion(const CLI::App& app, const std::string& typed) {
+  std::string best;
+  std::size_t best_distance = 4;
+  const std::string name = typed.substr(0, typed.find('='));
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& known : option->get_lnames()) {
+      const std::size_t distance = edit_distance(name, "--" + known);
+      if (distance >= best_distance) continue;
+      best_distance = distance;
+      best = "--" + known;
+    }
+  return best.empty() ? "; run with --help for the options" : "; did you mean " + best + "?";
+}
+
+double number_in(const std::string& option, double value, double lowest, double highest) {
+  if (value >= lowest && value <= highest) return value;
+  refuse(option + " must be from " + to_text(lowest) + " to " + to_text(highest) + ", not " +
+         to_text(value));
+}
+
+double positive(const std::string& option, double value) {
+  if (std::isfinite(value) && value > 0) return value;
+  refuse(option + " must be a positive number, not " + to_text(value));
+}
+
+double parse_window(const std::string& text) {
+  if (text == "auto") return 0;
+  double q = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), q);
+  if (code == std::errc() && end == text.data() + text.size() && q > 0 && q <= 1) return q;
+  refuse("--window is auto or a number q with 0 < q <= 1, not \"" + text + "\"");
+}
+
+/// Refuses what other versions of the program may offer.
+void check_supported(const Typed& t) {
+  const auto one_of = [](const std::string& option, const std::string& value,
+                         const std::vector<std::string>& later, const std::string& now) {
+    if (value == now) return;
+    if (std::find(later.begin(), later.end(), value) != later.end())
+      refuse(option + " " + value + " is not supported yet; use " + option + " " + now);
+    refuse(option + " does not know \"" + value + "\"; use " + now);
+  };
+  one_of("--model", t.model, {"static", "rigid"}, "dynamic");
+  one_of("--codec", t.codec, {"haar", "lowrank"}, "none");
+  if (t.codec_tolerance) refuse("--codec-tol belongs to --codec haar or lowrank");
+  if (t.compression_ratio) refuse("--compression-ratio belongs to --codec haar");
+  if (t.corner_angle != "none")
+    refuse("--corner-angle-deg with an angle is not supported yet; use --corner-angle-deg none");
+  if (t.precision != "float32" && t.precision != "float64")
+    refuse("--precision is float32 or float64, not \"" + t.precision + "\"");
+}
+
+void check_inputs(const Options& o) {
+  if (o.mesh.empty() || o.material.empty())
+    refuse("give a mesh and a material file: bemprecomp MESH MATERIAL.json -o BODY.bem");
+  if (o.output.empty() && !o.dry_run) refuse("name the archive to write: -o BODY.bem");
+  if (o.dt) positive("--dt", *o.dt);
+  positive("--mesh-scale", o.mesh_scale);
+  Scheme::parse(o.scheme);
+  if (o.history && o.history_tolerance) refuse("use either --history or --history-tol");
+  if (o.history) number_in("--history", *o.history, 1, 100000);
+  if (o.history_tolerance) number_in("--history-tol", *o.history_tolerance, 1e-13, 0.5);
+  number_in("--quadrature-tol", o.quadrature_tolerance, 1e-11, 0.1);
+}
+
+/// An output must not destroy an input.
+void check_distinct_files(const Options& o) {
+  std::vector<std::string> inputs = o.archives;
+  inputs.insert(inputs.end(), {o.mesh, o.material});
+  std::error_code ignored;
+  for (const std::string& written : {o.output, o.stats, o.log_file})
+    for (const std::string& read : inputs)
+      if (!written.empty() && std::filesystem::equivalent(written, read, ignored))
+        refuse(written + ": is an input and cannot be an output as well");
+}
+
+Options checked(const CLI::App& app, Typed& t) {
+  Options& o = t.options;
+  const auto given = [&app](const char* name) { return app.count(name) > 0 ? 1 : 0; };
+  const int actions = given("--info") + given("--verify") + given("--diff");
+  if (actions > 1) refuse("use only one of --info, --verify and --diff");
+  if (actions == 1 && !(o.mesh.empty() && o.output.empty()))
+    refuse("--info, --verify and --diff do not compute anything: leave mesh and output away");
+  if (o.json && app.count("--info") == 0) refuse("--json belongs to --info");
+  if (o.quiet && o.verbose) refuse("use either --quiet or --verbose");
+  if (o.threads) number_in("--threads", *o.threads, 1, 4096);
+  if (app.count("--info") > 0) {
+    o.action = Options::Action::info;
+    o.archives = {t.info};
+  } else if (app.count("--verify") > 0) {
+    o.action = Options::Action::verify;
+    o.archives = {t.verify};
+  } else if (app.count("--diff") > 0) {
+    o.action = Options::Action::diff;
+    o.archives = t.diff;
+  } else {
+    if (app.count("--damping") > 0) refuse("--damping is not supported yet; leave it away");
+    check_supported(t);
+    o.window = parse_window(t.window);
+    o.precision = t.precision == "float32" ? Precision::float32 : Precision::float64;
+    check_inputs(o);
+  }
+  check_distinct_files(o);
+  return o;
+}
+
+}  // namespace
+
+std::string Options::canonical_text() const {
+  std::string text = "--scheme " + Scheme::parse(scheme).name();
+  text += " --window " + (window == 0 ? "auto" : to_text(window));
+  if (history) text += " --history " + std::to_string(*history);
+  if (history_tolerance) text += " --history-tol " + to_text(*history_tolerance);
+  text += " --quadrature-tol " + to_text(quadrature_tolerance);
+  text += std::string(" --precision ") + (precision == Precision::float32 ? "float32" : "float64");
+  return text + " --model dynamic --codec none --corner-angle-deg none";
+}
+
+std::optional<Options> parse_options(int argc, const char* const* argv) {
+  Typed typed;
+  CLI::App app(
+      "Computes the matrices of an elastic body from its surface mesh and material.\n"
+      "  bemprecomp MESH MATERIAL.json -o BODY.bem [options]\n"
+      "  bemprecomp --info A.bem [--json] | --verify A.bem | --diff A.bem B.bem",
+      "bemprecomp");
+  app.set_version_flag("--version", version_text());
+  add_options(app, typed);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& e) {
+    const std::vector<std::string> extras = app.remaining();
+    const std::string first = extras.empty() ? "" : extras.front();
+    if (first.rfind("-", 0) != 0)
+      refuse("unexpected argument \"" + first + "\"; one mesh and one material file are enough");
+    refuse("unknown option " + first + suggestion(app, first));
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success)) refuse(e.what());
+    app.exit(e);
+    return std::nullopt;
+  }
+  return checked(app, typed);
+}
+
+}  // namespace bem

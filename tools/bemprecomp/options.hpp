@@ -1,0 +1,40 @@
+#pragma once
+
+#include "compress/stored_matrix.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bem {
+
+/// The command line of bemprecomp, checked.
+struct Options {
+  enum class Action { precompute, info, verify, diff };
+  Action action = Action::precompute;
+  std::vector<std::string> archives;  ///< of --info, --verify and --diff
+  bool json = false;                  ///< --info as JSON
+
+  std::string mesh, material, output;
+  std::optional<double> dt;  ///< [s]; else the material's
+  std::string scheme = "radau2";
+  double window = 0;  ///< as PrecomputeOptions: 0 is "auto"
+  std::optional<double> history_tolerance;
+  std::optional<int> history;
+  double quadrature_tolerance = 1e-6;
+  Precision precision = Precision::float32;
+  double mesh_scale = 1;
+  std::optional<int> threads;
+
+  bool dry_run = false, force = false, quiet = false, verbose = false;
+  std::string stats, log_file;
+
+  /// The options that determine the matrices, in a fixed order.
+  std::string canonical_text() const;
+};
+
+/// Parses and checks a command line; an empty result means that help or version was printed. Throws
+/// ErrorCode::usage.
+std::optional<Options> parse_options(int argc, const char* const* argv);
+
+}  // namespace bem

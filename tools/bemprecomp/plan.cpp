@@ -1,0 +1,146 @@
+#include "plan.hpp"
+
+#include "algebra/lu.hpp"
+#include "archive/archive_writer.hpp"
+#include "assembly/row_assembler.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "common/cli.hpp"
+#include "mesh/describe.hpp"
+#include "mesh/mesh_io.hpp"
+#include "scene/material_json.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace bem {
+namespace {
+
+constexpr double kMostTraversalSteps = 20000;
+constexpr int kLongHistory = 60;
+
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+BodyGeometry read_body(const Options& o, double density, std::vector<std::string>& warnings) {
+  TriangleMesh mesh = read_mesh(o.mesh);
+  if (o.mesh_scale != 1)
+    for (Vec3& v : mesh.vertices) v *= o.mesh_scale;
+  Surface surface = make_surface(std::move(mesh), o.mesh);
+  warnings = surface.warnings;
+  return make_geometry(surface, density);
+}
+
+int history_length(const Options& o, const Scheme& scheme, double lam) {
+  if (o.history) return *o.history;
+  if (o.history_tolerance) return history_length_for_tolerance(scheme, lam, *o.history_tolerance);
+  return default_history_length(scheme, lam);
+}
+
+template <class T>
+double seconds_per_row(const Plan& plan) {
+  const RowAssembler assembler(plan.geometry.nodes, plan.geometry.extent,
+                               plan.options.discretisation);
+  const std::size_t nodes = plan.geometry.nodes.vertices.size();
+  const auto threads = static_cast<std::size_t>(thread_count());
+  const std::size_t rows = std::min(nodes, 4 * threads);
+  const auto assemble = [&] {
+    parallel_for(rows, [&](std::size_t i) {
+      thread_local RowAssembler::Workspace work;
+      thread_local BlockRow<T> row;
+      assembler.assemble(static_cast<int>(i * nodes / rows), true, work, row);
+    });
+  };
+  assemble();  // the first time allocates
+  return seconds_of(assemble) / static_cast<double>(rows);
+}
+
+/// Factorisation, solution for n right-hand sides and inverse, for one initial component.
+template <class T>
+double seconds_of_inversion(double unknowns) {
+  const auto n = static_cast<Eigen::Index>(std::min(unknowns, 768.0));
+  DenseMatrix<T> a = DenseMatrix<T>::Random(n, n), b = DenseMatrix<T>::Random(n, n);
+  a.diagonal().array() += T(static_cast<double>(n));
+  const double seconds = seconds_of([&] {
+    Lu<T> lu(std::move(a));
+    lu.solve(b);
+    a = std::move(lu).invert();
+  });
+  return seconds * std::pow(unknowns / static_cast<double>(n), 3);
+}
+
+double seconds_per_byte_of_products() {
+  constexpr std::size_t kSize = 4096;
+  DenseStore<float> matrix(kSize, kSize);
+  parallel_for(kSize, [&](std::size_t i) { std::fill_n(matrix.row(i), kSize, 1.0f); });
+  const std::vector<double> x(kSize, 1.0);
+  std::vector<double> y(kSize, 0.0);
+  matrix.multiply_add(x.data(), y.data(), 1);
+  return seconds_of([&] { matrix.multiply_add(x.data(), y.data(), 1); }) /
+         static_cast<double>(matrix.bytes());
+}
+
+}  // namespace
+
+Plan make_plan(const Options& o) {
+  Plan plan;
+  Discretisation& d = plan.options.discretisation;
+  d.material = read_material(o.material);
+  if (!o.dt && !d.material.time_step)
+    throw Error(ErrorCode::usage, "no time step: give --dt S, or \"time_step\" in " + o.material);
+  d.dt = o.dt ? *o.dt : *d.material.time_step;
+  d.scheme = Scheme::parse(o.scheme);
+  d.quadrature_tolerance = o.quadrature_tolerance;
+  plan.options.precision = o.precision;
+  plan.options.window = o.window;
+  plan.geometry = read_body(o, d.material.density, plan.warnings);
+  plan.lam = traversal_steps(plan.geometry, d.material, d.dt);
+  if (!(plan.lam <= kMostTraversalSteps))
+    throw Error(ErrorCode::usage,
+                "the time step " + to_text(d.dt) + " s is too small: a shear wave takes " +
+                    to_text(std::round(plan.lam)) + " steps across the body; use a larger --dt");
+  d.history_length = history_length(o, d.scheme, plan.lam);
+  plan.memory = precompute_memory(plan.geometry.nodes.vertices.size(), plan.options);
+  plan.archive_bytes = archive_bytes(plan.geometry, plan.options);
+  if (d.history_length > kLongHistory)
+    plan.warnings.push_back(
+        "the history is long: " + std::to_string(d.history_length) +
+        " steps; memory and time grow with it (a larger --dt makes it shorter)");
+  return plan;
+}
+
+void check_memory(const Plan& plan) {
+  const auto available = static_cast<double>(physical_memory());
+  if (plan.memory.peak <= available) return;
+  throw Error(
+      ErrorCode::resources,
+      "not enough memory: " + bytes_text(plan.memory.peak) + " are needed for " +
+          std::to_string(plan.geometry.nodes.vertices.size()) + " nodes and a history of " +
+          std::to_string(plan.options.discretisation.history_length) +
+          " steps, but the machine has " + bytes_text(available) +
+          "; use a coarser mesh, a larger --dt, a shorter --history or --precision float32");
+}
+
+TimeEstimate estimate_time(const Plan& plan) {
+  constexpr double kGrowthSteps = 60, kWriteSpeed = 1e9;
+  const Discretisation& d = plan.options.discretisation;
+  const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());
+  const bool single =
+      plan.options.precision == Precision::float32 && d.quadrature_tolerance >= 1e-6;
+  TimeEstimate t;
+  t.assembly = nodes * (single ? seconds_per_row<float>(plan) : seconds_per_row<double>(plan));
+  for (const InitialComponent& c : d.scheme.initial_components())
+    t.inversion += c.paired ? seconds_of_inversion<Complex>(3 * nodes)
+                            : seconds_of_inversion<double>(3 * nodes);
+  // a step reads the H_k, about half of what is stored
+  t.growth =
+      (kGrowthSteps + d.history_length) * plan.memory.stored / 2 * seconds_per_byte_of_products();
+  t.writing = plan.archive_bytes / kWriteSpeed;
+  return t;
+}
+
+}  // namespace bem

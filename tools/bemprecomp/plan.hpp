@@ -1,0 +1,36 @@
+#pragma once
+
+#include "model/precompute.hpp"
+#include "options.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bem {
+
+/// What is going to be computed, and what it will take.
+struct Plan {
+  BodyGeometry geometry;
+  PrecomputeOptions options;
+  double lam = 0;         ///< steps that a shear wave takes across the body
+  MemoryEstimate memory;  ///< [bytes]
+  double archive_bytes = 0;
+  std::vector<std::string> warnings;
+};
+
+/// Reads and checks mesh and material. Throws ErrorCode::invalid_input, and ErrorCode::usage if no
+/// time step is given or it cannot be used.
+Plan make_plan(const Options& options);
+
+/// Throws ErrorCode::resources if the memory is more than the machine has.
+void check_memory(const Plan& plan);
+
+/// Expected duration by phase [s], from timing a few rows, a small inversion and a product on this
+/// machine (takes about a second).
+struct TimeEstimate {
+  double assembly = 0, inversion = 0, growth = 0, writing = 0;
+  double total() const { return assembly + inversion + growth + writing; }
+};
+TimeEstimate estimate_time(const Plan& plan);
+
+}  // namespace bem

@@ -1,0 +1,175 @@
+#include "report.hpp"
+
+#include "archive/archive_layout.hpp"
+#include "base/parallel.hpp"
+#include "common/cli.hpp"
+
+#include <filesystem>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+namespace bem {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* precision_name(Precision p) {
+  return p == Precision::float32 ? "float32" : "float64";
+}
+
+Json material_json(const Material& m) {
+  Json json = {{"name", m.name},
+               {"density", m.density},
+               {"shear_modulus", m.shear_modulus},
+               {"poisson_ratio", m.poisson_ratio}};
+  if (m.time_step) json["time_step"] = *m.time_step;
+  return json;
+}
+
+Json body_json(const BodyGeometry& g) {
+  const Vec3& c = g.mass.centre;
+  return {{"nodes", g.nodes.vertices.size()},
+          {"triangles", g.nodes.triangles.size()},
+          {"volume", g.mass.volume},
+          {"mass", g.mass.mass},
+          {"centre_of_mass", {c[0], c[1], c[2]}},
+          {"extent", g.extent}};
+}
+
+Json scheme_json(const Discretisation& d, double window) {
+  return {{"name", d.scheme.name()},
+          {"stages", d.scheme.stages()},
+          {"dt", d.dt},
+          {"history_length", d.history_length},
+          {"window", window},
+          {"quadrature_tolerance", d.quadrature_tolerance}};
+}
+
+Json report_json(const ModelReport& r) {
+  return {{"lam", r.lam},
+          {"row_sum_residual", r.row_sum_residual},
+          {"rotation_residual", r.rotation_residual},
+          {"condition", r.condition},
+          {"growth", r.growth}};
+}
+
+/// "name:   value" lines with aligned values.
+class Table {
+ public:
+  explicit Table(std::ostream& out) : out_(out) {}
+
+  template <class... Parts>
+  void line(const std::string& name, const Parts&... parts) {
+    std::ostringstream text;
+    text << std::left << std::setw(16) << name + ":" << std::setprecision(6);
+    (text << ... << parts);
+    out_ << text.str() << "\n";
+  }
+
+ private:
+  std::ostream& out_;
+};
+
+void print_body(Table& table, const BodyGeometry& g, const Discretisation& d, double lam) {
+  const Material& m = d.material;
+  table.line("mesh", g.input.vertices.size(), " vertices, ", g.input.triangles.size(),
+             " triangles, ", g.nodes.vertices.size(), " nodes");
+  table.line("body", "extent ", g.extent, " m, volume ", g.mass.volume, " m^3, mass ", g.mass.mass,
+             " kg");
+  table.line("material", m.name, ": density ", m.density, " kg/m^3, shear modulus ",
+             m.shear_modulus, " Pa, Poisson ratio ", m.poisson_ratio);
+  table.line("time", d.scheme.name(), ", dt ", d.dt, " s, history of ", d.history_length,
+             " steps (a shear wave crosses the body in ", lam, ")");
+}
+
+}  // namespace
+
+Json info_json(const Archive& archive) {
+  const Provenance& p = archive.provenance();
+  return {
+      {"format_version", archive.user_block().version},
+      {"bytes", archive.user_block().payload + kUserBlock},
+      {"digest", archive.user_block().digest},
+      {"model", kArchiveModel},
+      {"codec", kArchiveCodec},
+      {"precision", precision_name(archive.precision())},
+      {"mesh",
+       {{"vertices", archive.geometry().input.vertices.size()},
+        {"faces", archive.geometry().input.triangles.size()}}},
+      {"body", body_json(archive.geometry())},
+      {"material", material_json(archive.discretisation().material)},
+      {"scheme", scheme_json(archive.discretisation(), archive.window())},
+      {"matrices", {{"unknowns", archive.unknowns()}, {"count", archive.matrix_paths().size()}}},
+      {"report", report_json(archive.report())},
+      {"provenance",
+       {{"program", p.program},
+        {"mesh_file", p.mesh_file},
+        {"material_file", p.material_file},
+        {"mesh_scale", p.mesh_scale},
+        {"options", p.options}}}};
+}
+
+void print_info(std::ostream& out, const Archive& archive) {
+  Table table(out);
+  const Discretisation& d = archive.discretisation();
+  const Provenance& p = archive.provenance();
+  const ModelReport& r = archive.report();
+  table.line("archive", archive.path(), ", ",
+             bytes_text(static_cast<double>(archive.user_block().payload + kUserBlock)),
+             ", format version ", archive.user_block().version);
+  print_body(table, archive.geometry(), d, r.lam);
+  table.line("window", archive.window());
+  table.line("matrices", archive.matrix_paths().size(), " of ", archive.unknowns(), " x ",
+             archive.unknowns(), ", ", precision_name(archive.precision()), ", model ",
+             kArchiveModel, ", codec ", kArchiveCodec);
+  table.line("quadrature", "tolerance ", d.quadrature_tolerance, ", row sums repaired by ",
+             r.row_sum_residual, ", rotation residual ", r.rotation_residual);
+  table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
+             " without window), condition number ", r.condition);
+  table.line("made by", p.program, " from ", p.mesh_file, " (times ", p.mesh_scale, ") and ",
+             p.material_file);
+  table.line("options", p.options);
+  table.line("digest", archive.user_block().digest, " (checked)");
+}
+
+void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
+  Table table(out);
+  const Discretisation& d = plan.options.discretisation;
+  print_body(table, plan.geometry, d, plan.lam);
+  table.line("lam", plan.lam);
+  table.line("n_max", d.history_length);
+  table.line("memory", bytes_text(plan.memory.stored), " of matrices, ",
+             bytes_text(plan.memory.peak), " at most (the machine has ",
+             bytes_text(static_cast<double>(physical_memory())), ")");
+  table.line("archive size", bytes_text(plan.archive_bytes));
+  table.line("time", "about ", seconds_text(time.total()), " on ", thread_count(),
+             " threads (assembly ", seconds_text(time.assembly), ", inversion ",
+             seconds_text(time.inversion), ", growth factor ", seconds_text(time.growth),
+             ", writing ", seconds_text(time.writing), ")");
+}
+
+Json stats_json(const BodyModel& model, const std::string& archive, const PhaseTimer& timer,
+                const std::vector<std::string>& warnings) {
+  Json phases = Json::array();
+  for (const PhaseTimer::Phase& p : timer.phases())
+    phases.push_back({{"name", p.name},
+                      {"wall_seconds", p.wall_seconds},
+                      {"cpu_seconds", p.cpu_seconds},
+                      {"peak_memory_bytes", p.peak_memory}});
+  return {{"program", version_text()},
+          {"archive", archive},
+          {"archive_bytes", std::filesystem::file_size(archive)},
+          {"threads", thread_count()},
+          {"wall_seconds", timer.total_wall_seconds()},
+          {"peak_memory_bytes", peak_memory()},
+          {"phases", phases},
+          {"precision", precision_name(model.precision)},
+          {"body", body_json(model.geometry)},
+          {"material", material_json(model.discretisation.material)},
+          {"scheme", scheme_json(model.discretisation, model.window)},
+          {"report", report_json(model.report)},
+          {"warnings", warnings}};
+}
+
+}  // namespace bem

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "archive/archive_reader.hpp"
+#include "common/measure.hpp"
+#include "plan.hpp"
+
+#include <iosfwd>
+
+#include <nlohmann/json.hpp>
+
+namespace bem {
+
+/// What is in an archive, without its matrices and arrays.
+nlohmann::ordered_json info_json(const Archive& archive);
+
+/// The same for people.
+void print_info(std::ostream& out, const Archive& archive);
+
+/// What --dry-run prints.
+void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time);
+
+/// What --stats writes.
+nlohmann::ordered_json stats_json(const BodyModel& model, const std::string& archive,
+                                  const PhaseTimer& timer,
+                                  const std::vector<std::string>& warnings);
+
+}  // namespace bem

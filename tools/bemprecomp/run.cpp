@@ -1,0 +1,139 @@
+#include "run.hpp"
+
+#include "archive/archive_writer.hpp"
+#include "base/error.hpp"
+#include "base/pending_file.hpp"
+#include "report.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace bem {
+namespace {
+
+constexpr double kNoticeableGrowth = 1.0005;
+
+/// The statistics file, created at the start so that a bad path is noticed before the work.
+class StatsFile {
+ public:
+  explicit StatsFile(const std::string& path) {
+    if (!path.empty()) file_.emplace(path);
+  }
+
+  void write(const nlohmann::ordered_json& json) {
+    if (!file_) return;
+    std::ofstream(file_->temporary_path()) << json.dump(2) << "\n";
+    file_->commit();
+  }
+
+  bool wanted() const { return file_.has_value(); }
+
+ private:
+  std::optional<PendingFile> file_;
+};
+
+std::string short_text(double value) {
+  std::ostringstream text;
+  text << std::setprecision(6) << value;
+  return text.str();
+}
+
+/// Empty if motions do not grow noticeably.
+std::string growth_warning(const BodyModel& model) {
+  const double growth = model.report.growth, left = growth * model.window;
+  const std::string cure = "a larger --dt, a smaller theta, or a finer mesh";
+  if (left > kNoticeableGrowth)
+    return "motions grow by a factor of " + short_text(left) +
+           " per step; --window auto removes that, better are " + cure;
+  if (growth > kNoticeableGrowth)
+    return "motions would grow by a factor of " + short_text(growth) + " per step; the window " +
+           short_text(model.window) + " removes that, but it damps: better are " + cure;
+  return "";
+}
+
+/// Follows the phases of the work: timer, progress bar, and the check for Ctrl-C.
+class Phases {
+ public:
+  explicit Phases(Log& log) : bar_(log), log_(log) {}
+
+  void begin(const std::string& phase) { update(phase, 0); }
+
+  void update(const std::string& phase, double fraction) {
+    check_interrupt();
+    {
+      const std::lock_guard lock(mutex_);
+      if (phase != current_) log_.detail(phase);
+      current_ = phase;
+      timer_.begin(phase);
+    }
+    bar_.update(phase, fraction);
+  }
+
+  void finish() {
+    timer_.end();
+    bar_.finish();
+  }
+
+  Progress callback() {
+    return [this](const std::string& phase, double fraction) { update(phase, fraction); };
+  }
+  const PhaseTimer& timer() const { return timer_; }
+
+ private:
+  ProgressBar bar_;
+  Log& log_;
+  std::mutex mutex_;
+  PhaseTimer timer_;
+  std::string current_;
+};
+
+Provenance provenance_of(const Options& o) {
+  const auto name = [](const std::string& path) {
+    return std::filesystem::path(path).filename().string();
+  };
+  return {version_text(), name(o.mesh), name(o.material), o.mesh_scale, o.canonical_text()};
+}
+
+int run_dry(const Plan& plan, Log& log) {
+  if (plan.memory.peak > static_cast<double>(physical_memory()))
+    log.warning("the machine has not enough memory for this");
+  print_plan(std::cout, plan, estimate_time(plan));
+  return 0;
+}
+
+}  // namespace
+
+int run_precompute(const Options& o, Log& log) {
+  if (!o.dry_run) check_archive_target(o.output, o.force);
+  Phases phases(log);
+  phases.begin("mesh");
+  Plan plan = make_plan(o);
+  std::vector<std::string> warnings = plan.warnings;
+  for (const std::string& w : warnings) log.warning(w);
+  if (o.dry_run) return run_dry(plan, log);
+  check_memory(plan);
+  check_archive_target(o.output, o.force, plan.archive_bytes);
+  StatsFile stats(o.stats);
+  log.info(std::to_string(plan.geometry.nodes.vertices.size()) + " nodes, history of " +
+           std::to_string(plan.options.discretisation.history_length) + " steps, " +
+           bytes_text(plan.memory.peak) + " of memory");
+
+  phases.begin("tables");
+  const BodyModel model = precompute(std::move(plan.geometry), plan.options, phases.callback());
+  const std::string growth = growth_warning(model);
+  if (!growth.empty()) {
+    warnings.push_back(growth);
+    log.warning(growth);
+  }
+  write_archive(o.output, model, provenance_of(o), o.force, phases.callback());
+  phases.finish();
+  if (stats.wanted()) stats.write(stats_json(model, o.output, phases.timer(), warnings));
+  log.info(o.output + ": " + bytes_text(static_cast<double>(std::filesystem::file_size(o.output))) +
+           " in " + seconds_text(phases.timer().total_wall_seconds()));
+  return 0;
+}
+
+}  // namespace bem
