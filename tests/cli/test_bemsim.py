@@ -1,11 +1,12 @@
 """The program bemsim from outside: options, exit codes, and the trajectories that it writes.
 
-The folder of the built programs is taken from the environment variable BEM_BIN.
+The environment variables BEMSHAPE, BEMPRECOMP and BEMSIM are the built programs.
 """
 import json
 import math
 import os
 import pathlib
+import pty
 import random
 import signal
 import subprocess
@@ -16,7 +17,6 @@ import unittest
 import h5py
 import numpy as np
 
-BIN = pathlib.Path(os.environ["BEM_BIN"])
 DT = 0.01
 DENSITY = 1000.0
 GRAVITY = np.array([0, -9.81, 0])
@@ -44,7 +44,7 @@ def tearDownModule():
 
 
 def program(name, *arguments, expect=0):
-    done = subprocess.run([BIN / name, *map(str, arguments)], capture_output=True, text=True, timeout=LIMIT)
+    done = subprocess.run([os.environ[name.upper()], *map(str, arguments)], capture_output=True, text=True, timeout=LIMIT)
     if done.returncode != expect:
         raise AssertionError(f"{name} {arguments}: exit code {done.returncode}, not {expect}\n"
                              f"{done.stdout}\n{done.stderr}")
@@ -159,7 +159,7 @@ class Trajectories(Case):
     def test_free_fall(self):
         self.simulate()
         with self.trajectory() as file:
-            t = file["time"][:, None, None]
+            t = file["time"][:][:, None, None]
             x = file["bodies/ball/positions"][:]
             self.assertEqual(len(x), 21)
             expected = x[0] + np.array([1.5, 0.5, 0]) * t + GRAVITY * t**2 / 2
@@ -331,6 +331,21 @@ class OtherActions(Case):
         self.assertIn("21 frames", log.read_text())
 
 
+    def test_progress_bar_on_a_terminal(self):
+        self.scene_file.write_text(json.dumps(self.scene))
+        terminal, program_side = pty.openpty()
+        self.addCleanup(os.close, terminal)
+        for options, shown in [(["-q"], False), ([], True)]:
+            subprocess.run([os.environ["BEMSIM"], self.scene_file, "-o", self.out, "--force", *options],
+                           stderr=program_side, check=True, timeout=LIMIT)
+            os.write(program_side, b"end")
+            text = b""
+            while not text.endswith(b"end"):
+                text += os.read(terminal, 4096)
+            self.assertEqual(b"stepping" in text and b"%" in text, shown, text)
+        os.close(program_side)
+
+
 class Statistics(Case):
     def test_fields(self):
         self.scene["bodies"].append(held_ball())
@@ -489,7 +504,7 @@ class Failures(Case):
             character = bytes([rng.choice(b'{}[],:"-0123456789.eEtfn \n\0\x80\xffax/\\')])
             damaged = text[:at] + rng.choice([character, b""]) + text[at + rng.randrange(2):]
             self.scene_file.write_bytes(damaged)
-            done = subprocess.run([BIN / "bemsim", self.scene_file, "--check"], capture_output=True, timeout=LIMIT)
+            done = subprocess.run([os.environ["BEMSIM"], self.scene_file, "--check"], capture_output=True, timeout=LIMIT)
             codes.append(done.returncode)
             with self.subTest(number=i, damaged=damaged):
                 self.check_answer(done, damaged)
@@ -513,7 +528,7 @@ class Interruption(Case):
         """Signals a long run that has begun to write; returns its exit code and messages."""
         self.scene["duration"] = 100000
         self.scene_file.write_text(json.dumps(self.scene))
-        run = subprocess.Popen([BIN / "bemsim", self.scene_file, "-o", self.out, "--every", "20", "--stats",
+        run = subprocess.Popen([os.environ["BEMSIM"], self.scene_file, "-o", self.out, "--every", "20", "--stats",
                                 self.folder / "stats.json"], stderr=subprocess.PIPE, text=True)
         self.addCleanup(run.stderr.close)
         self.addCleanup(run.kill)

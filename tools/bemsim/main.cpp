@@ -54,6 +54,7 @@ int run(int argc, char** argv, bem::Log& log) {
   if (options->verbose) log.set_verbosity(bem::Verbosity::verbose);
   if (options->threads) bem::set_thread_count(*options->threads);
   bem::catch_interrupts();
+  bem::set_interruption_check(bem::check_interrupt);
   bem::Scene scene = read_inputs(*options, log);
 
   bem::ProgressBar bar(log);

@@ -5,6 +5,9 @@
 #include "options.hpp"
 
 #include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace bem {
 

@@ -1,6 +1,7 @@
 #include "run.hpp"
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "base/pending_file.hpp"
 #include "mesh/describe.hpp"
 #include "output/hdf5_trajectory.hpp"
@@ -59,6 +60,18 @@ BodyFrame frame_of(const BodySpec& spec, const Body& body, bool tractions) {
   return out;
 }
 
+/// What is on the disk is always finite.
+void check_finite(const Body& body, const BodyFrame& frame, double time) {
+  const auto finite = [](const std::vector<Vec3>& vectors) {
+    return std::all_of(vectors.begin(), vectors.end(), [](const Vec3& v) { return v.allFinite(); });
+  };
+  if (!finite(frame.positions) || !finite(frame.tractions) || !frame.translation.allFinite() ||
+      !frame.rotation.allFinite())
+    throw Error(ErrorCode::numerical,
+                "body " + in_quotes(body.name()) +
+                    " has a number that is not finite at t = " + to_text(time) + " s");
+}
+
 /// One run: the simulation, its output and what is measured.
 class Run {
  public:
@@ -68,6 +81,7 @@ class Run {
     timer_.begin(kLoadingPhase);
     simulation_ = std::make_unique<Simulation>(plan.scene, source);
     check_interrupt();
+    bar_.finish();
     prepare_output_directory(options.output,
                              options.force ? ExistingOutput::replace : ExistingOutput::refuse);
     writers_ = make_writers(plan, options.output);
@@ -102,6 +116,7 @@ class Run {
 
  private:
   void advance() {
+    set_interruption_check(nullptr);  // a step that has begun is finished
     write_frame();
     while (simulation_->steps() < plan_.steps) {
       check_interrupt();
@@ -120,9 +135,11 @@ class Run {
     frame.index = static_cast<std::size_t>(statistics_.frames());
     frame.step = static_cast<std::size_t>(simulation_->steps());
     frame.time = simulation_->time();
-    for (std::size_t i = 0; i < plan_.bodies.size(); ++i)
-      frame.bodies.push_back(
-          frame_of(*plan_.bodies[i].spec, simulation_->bodies()[i], writes_tractions(plan_.scene)));
+    for (std::size_t i = 0; i < plan_.bodies.size(); ++i) {
+      const Body& body = simulation_->bodies()[i];
+      frame.bodies.push_back(frame_of(*plan_.bodies[i].spec, body, writes_tractions(plan_.scene)));
+      check_finite(body, frame.bodies.back(), frame.time);
+    }
     for (const auto& writer : writers_) writer->write(frame);
     statistics_.record_frame();
   }
