@@ -1,0 +1,39 @@
+#include "archive_source.hpp"
+
+#include "base/error.hpp"
+#include "scene/location.hpp"
+
+namespace bem {
+namespace {
+
+/// Calls `read`, whose errors name the archive, and adds the place in the scene to them.
+template <class Read>
+auto at_place(const FilePath& path, const Read& read) {
+  try {
+    return read();
+  } catch (const Error& e) {
+    throw Error(e.code(), where(path.location) + ": " + e.what());
+  }
+}
+
+}  // namespace
+
+const Archive& ArchiveSource::open(const FilePath& path) {
+  std::unique_ptr<Archive>& archive = archives_[path.resolved];
+  if (!archive) archive = at_place(path, [&] { return std::make_unique<Archive>(path.resolved); });
+  return *archive;
+}
+
+std::shared_ptr<const BodyModel> ArchiveSource::model(const FilePath& path) {
+  const Archive& archive = open(path);
+  return at_place(path, [&] {
+    return std::make_shared<const BodyModel>(archive.load_motion_matrices(progress_));
+  });
+}
+
+TractionData ArchiveSource::tractions(const FilePath& path, const std::vector<int>& unknowns) {
+  const Archive& archive = open(path);
+  return at_place(path, [&] { return archive.load_tractions(unknowns, progress_); });
+}
+
+}  // namespace bem

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "archive/archive_reader.hpp"
+#include "dynamics/simulation.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace bem {
+
+/// The archives of a scene. Each is opened, and its digest checked, once. Everything here throws
+/// ErrorCode::archive with a message that names the place in the scene and the archive.
+class ArchiveSource : public ModelSource {
+ public:
+  /// `progress` may throw to stop the loading.
+  explicit ArchiveSource(Progress progress) : progress_(std::move(progress)) {}
+
+  /// The archive without its matrices.
+  const Archive& open(const FilePath& path);
+
+  std::shared_ptr<const BodyModel> model(const FilePath& path) override;
+  TractionData tractions(const FilePath& path, const std::vector<int>& unknowns) override;
+
+ private:
+  Progress progress_;
+  std::map<std::string, std::unique_ptr<Archive>> archives_;  ///< by resolved path
+};
+
+}  // namespace bem

@@ -1,0 +1,158 @@
+#include "options.hpp"
+
+#include "base/error.hpp"
+#include "common/cli.hpp"
+#include "mesh/describe.hpp"
+#include "scene/json_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <CLI/CLI.hpp>
+
+namespace bem {
+namespace {
+
+const std::vector<std::string> kFormatNames = {"obj", "hdf5", "vtp", "pc2"};  // as OutputFormat
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw Error(ErrorCode::usage, text);
+}
+
+/// What was typed, before it is checked.
+struct Typed {
+  Options options;
+  std::vector<std::string> formats;
+  bool check = false, print_schema = false, resume = false;
+  std::optional<int> checkpoint_every;
+};
+
+void add_options(CLI::App& app, Typed& t) {
+  Options& o = t.options;
+  app.add_option("SCENE", o.scene, "scene JSON");
+  app.add_option("-o,--output", o.output, "folder for the trajectories");
+  app.add_option("--format", t.formats,
+                 "comma-separated list of hdf5 and obj (vtp and pc2 are not supported yet); "
+                 "default: the scene's, else hdf5")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--steps", o.steps, "number of time steps; default: the scene's duration");
+  app.add_option("--duration", o.duration, "simulated time [s]; default: the scene's");
+  app.add_option("--every", o.every, "write every N-th step; default: the scene's, else 1");
+  app.add_option("--fps", o.fps,
+                 "write this many frames per second of simulated time, the nearest steps");
+  app.add_option("--threads", o.threads, "worker threads (all cores)");
+  app.add_flag("--check", t.check,
+               "validate the scene and its archives, print what would be done, then stop");
+  app.add_flag("--print-schema", t.print_schema, "print the JSON Schema of scenes, then stop");
+  app.add_option("--checkpoint-every", t.checkpoint_every,
+                 "save the state every N steps: not supported yet");
+  app.add_flag("--resume", t.resume, "go on with an earlier run: not supported yet");
+  app.add_option("--stats", o.stats, "JSON file for time by phase, iterations, momentum, memory");
+  app.add_flag("--force", o.force, "replace the output of an earlier run");
+  app.add_flag("-q,--quiet", o.quiet, "only warnings and errors");
+  app.add_flag("-v,--verbose", o.verbose, "also details");
+  app.add_option("--log-file", o.log_file, "file for all messages");
+}
+
+/// "; did you mean --threads?", or a hint at --help if no option is similar.
+std::string suggestion(const CLI::App& app, const std::string& typed) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::string nearest = nearest_name(typed.substr(0, typed.find('=')), names);
+  return nearest.empty() ? "; run with --help for the options" : "; did you mean " + nearest + "?";
+}
+
+void parse(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    const std::vector<std::string> extras = app.remaining();
+    const std::string first = extras.empty() ? "" : extras.front();
+    if (first.rfind('-', 0) != 0)
+      refuse("unexpected argument " + in_quotes(first) + "; one scene is enough");
+    refuse("unknown option " + printable(first) + suggestion(app, first));
+  }
+}
+
+std::vector<OutputFormat> parse_formats(const std::vector<std::string>& names) {
+  std::vector<OutputFormat> formats;
+  for (const std::string& name : names) {
+    const auto found = std::find(kFormatNames.begin(), kFormatNames.end(), name);
+    if (found == kFormatNames.end())
+      refuse("--format does not know " + in_quotes(name) + "; the formats are obj, hdf5, vtp, pc2");
+    const auto format = static_cast<OutputFormat>(found - kFormatNames.begin());
+    if (std::find(formats.begin(), formats.end(), format) != formats.end())
+      refuse("--format names " + name + " twice");
+    formats.push_back(format);
+  }
+  return formats;
+}
+
+void check_numbers(const Options& o) {
+  const auto at_least = [](const char* option, auto value, auto lowest) {
+    if (value && *value < lowest)
+      refuse(std::string(option) + " must be at least " + std::to_string(lowest) + ", not " +
+             std::to_string(*value));
+  };
+  at_least("--steps", o.steps, 0L);
+  if (o.steps && *o.steps > std::numeric_limits<int>::max())
+    refuse("--steps must be at most " + std::to_string(std::numeric_limits<int>::max()));
+  at_least("--every", o.every, 1);
+  at_least("--threads", o.threads, 1);
+  if (o.threads && *o.threads > 4096) refuse("--threads must be at most 4096");
+  if (o.duration && !(std::isfinite(*o.duration) && *o.duration >= 0))
+    refuse("--duration must be a number >= 0, not " + to_text(*o.duration));
+  if (o.fps && !(std::isfinite(*o.fps) && *o.fps > 0))
+    refuse("--fps must be a number > 0, not " + to_text(*o.fps));
+}
+
+Options checked(Typed& t) {
+  Options& o = t.options;
+  if (t.checkpoint_every) refuse("--checkpoint-every is not supported yet; leave it away");
+  if (t.resume) refuse("--resume is not supported yet; leave it away");
+  if (t.check && t.print_schema) refuse("use either --check or --print-schema");
+  if (o.steps && o.duration) refuse("use either --steps or --duration");
+  if (o.every && o.fps) refuse("use either --every or --fps");
+  if (o.quiet && o.verbose) refuse("use either --quiet or --verbose");
+  o.formats = parse_formats(t.formats);
+  check_numbers(o);
+  if (t.print_schema) {
+    o.action = Options::Action::print_schema;
+    return o;
+  }
+  if (o.scene.empty()) refuse("give a scene file: bemsim SCENE.json -o OUT_DIR");
+  if (t.check)
+    o.action = Options::Action::check;
+  else if (o.output.empty())
+    refuse("name the folder for the trajectories: -o OUT_DIR");
+  return o;
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, const char* const* argv) {
+  Typed typed;
+  CLI::App app(
+      "Simulates a scene of deformable bodies and writes their trajectories.\n"
+      "  bemsim SCENE.json -o OUT_DIR [options]",
+      "bemsim");
+  app.set_version_flag("--version", version_text());
+  add_options(app, typed);
+  try {
+    parse(app, argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success)) refuse(e.what());
+    app.exit(e);
+    return std::nullopt;
+  }
+  return checked(typed);
+}
+
+const std::string& format_name(OutputFormat format) {
+  return kFormatNames[static_cast<std::size_t>(format)];
+}
+
+}  // namespace bem

@@ -1,0 +1,179 @@
+#include "plan.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "common/cli.hpp"
+#include "dynamics/selection.hpp"
+#include "mesh/describe.hpp"
+#include "scene/unsupported.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <set>
+
+namespace bem {
+namespace {
+
+constexpr double kNoticeableGrowth = 1.0005;
+
+void apply_options(const Options& o, Plan& plan) {
+  Scene& scene = plan.scene;
+  if (!o.formats.empty()) {
+    scene.output.formats = o.formats;
+    scene.output.location = {"--format", 0, 0, ""};
+  }
+  if (o.steps) scene.duration = static_cast<double>(*o.steps) * scene.time_step;
+  if (o.duration) scene.duration = *o.duration;
+  if (scene.duration / scene.time_step > std::numeric_limits<int>::max())
+    throw Error(ErrorCode::usage, "--duration is more than " +
+                                      std::to_string(std::numeric_limits<int>::max()) +
+                                      " time steps");
+  if (o.every) scene.output.every = *o.every;
+  plan.steps = o.steps ? *o.steps : step_count(scene.duration, scene.time_step);
+  plan.schedule = o.fps ? FrameSchedule::per_second(*o.fps, scene.time_step)
+                        : FrameSchedule::every_steps(scene.output.every);
+  if (o.fps && *o.fps * scene.time_step > 1 + 1e-9)
+    plan.warnings.push_back(
+        "--fps asks for more frames than there are steps: every step is "
+        "written, " +
+        to_text(1 / scene.time_step) + " per second");
+}
+
+void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
+  if (std::abs(dt - scene.time_step) <= 1e-9 * dt) return;
+  throw Error(ErrorCode::archive,
+              where(body.archive.location) + ": the archive " + in_quotes(body.archive.written) +
+                  " was made for the time step " + to_text(dt) + " s, the scene has " +
+                  to_text(scene.time_step) + " s (" + where(scene.time_step_location) +
+                  "); make the archive again with --dt " + to_text(scene.time_step) +
+                  ", or change the scene");
+}
+
+PlannedBody plan_body(const Scene& scene, const BodySpec& spec, ArchiveSource& source) {
+  PlannedBody body{&spec, &source.open(spec.archive), 0, 0, {}};
+  check_time_step(scene, spec, body.archive->discretisation().dt);
+  const BodyGeometry& geometry = body.archive->geometry();
+  for (const PrescribedNode& node : prescribed_nodes(geometry, spec))
+    ++(node.handle ? body.handled : body.fixed);
+  for (const TractionSpec& load : spec.tractions)
+    body.loaded.push_back(select_triangles(geometry, load.select).size());
+  return body;
+}
+
+/// Matrices and columns of inputs are shared by the bodies of an archive, histories are not.
+double memory_of(const std::vector<PlannedBody>& bodies) {
+  double bytes = 0;
+  std::set<const Archive*> seen;
+  for (const PlannedBody& body : bodies) {
+    const Archive& archive = *body.archive;
+    const Discretisation& d = archive.discretisation();
+    const auto n = static_cast<double>(archive.unknowns());
+    const double entry = archive.precision() == Precision::float32 ? 4 : 8;
+    const auto lag_columns = static_cast<double>(d.scheme.lag_components().size()) *
+                             static_cast<double>(d.history_length);
+    const auto initial = static_cast<double>(d.scheme.initial_components().size());
+    // half of an archive's matrices belong to surface loads: only columns of them are loaded
+    if (seen.insert(&archive).second)
+      bytes += static_cast<double>(archive.matrix_paths().size() / 2) * n * n * entry;
+    const double prescribed = 3 * static_cast<double>(body.fixed + body.handled);
+    double inputs = 6 + 2 * prescribed;
+    for (const TractionSpec& load : body.spec->tractions)
+      inputs += load.is_pressure() || load.follow ? 1 : 3;
+    bytes += n * inputs * (8 * lag_columns + 16 * initial) + 8 * n * lag_columns +
+             8 * prescribed * prescribed;
+  }
+  return bytes;
+}
+
+void add_warnings(Plan& plan) {
+  std::set<const Archive*> seen;
+  for (const PlannedBody& body : plan.bodies) {
+    const double growth = body.archive->report().growth * body.archive->window();
+    if (growth > kNoticeableGrowth && seen.insert(body.archive).second)
+      plan.warnings.push_back(where(body.spec->archive.location) +
+                              ": motions of this archive grow by a factor of " + to_text(growth) +
+                              " per step; make it again with --window auto or a larger --dt");
+    if (body.spec->frame == FrameMotion::stationary && body.fixed + body.handled == 0)
+      plan.warnings.push_back(where(body.spec->location) + ": nothing holds the body " +
+                              in_quotes(body.spec->name) +
+                              ", but its static frame is made for small displacements; a moving "
+                              "frame follows it");
+  }
+}
+
+std::string vector_text(const Vec3& v, const char* unit) {
+  return to_text(v) + " " + unit;
+}
+
+void print_body(std::ostream& out, const PlannedBody& body, const Vec3& gravity) {
+  const BodySpec& spec = *body.spec;
+  const TriangleMesh& mesh = body.archive->geometry().input;
+  const Discretisation& d = body.archive->discretisation();
+  out << "body " << in_quotes(spec.name) << ": " << count_text(mesh.vertices.size(), "vertex")
+      << ", " << count_text(mesh.triangles.size(), "triangle") << ", archive "
+      << printable(spec.archive.written) << " (" << d.scheme.name() << ", history of "
+      << count_text(static_cast<std::size_t>(d.history_length), "step") << ")\n";
+  out << "  " << (spec.frame == FrameMotion::moving ? "moving" : "static") << " frame";
+  if (spec.gravity && !gravity.isZero(0)) out << ", gravity " << vector_text(gravity, "m/s^2");
+  if (!spec.velocity.isZero(0)) out << ", velocity " << vector_text(spec.velocity, "m/s");
+  if (!spec.angular_velocity.isZero(0))
+    out << ", angular velocity " << vector_text(spec.angular_velocity, "rad/s");
+  out << "\n";
+  if (body.fixed > 0) out << "  fixed: " << count_text(body.fixed, "vertex") << "\n";
+  if (body.handled > 0)
+    out << "  handles: " << spec.handles.size() << " with " << count_text(body.handled, "vertex")
+        << "\n";
+  for (std::size_t i = 0; i < body.loaded.size(); ++i)
+    out << "  load: " << (spec.tractions[i].is_pressure() ? "pressure" : "traction") << " on "
+        << count_text(body.loaded[i], "triangle") << "\n";
+}
+
+}  // namespace
+
+std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSource& source) {
+  auto plan = std::make_unique<Plan>();
+  plan->scene = std::move(scene);
+  apply_options(options, *plan);
+  if (const auto unsupported = first_unsupported(plan->scene))
+    throw error_at(unsupported->first, unsupported->second);
+  for (const BodySpec& body : plan->scene.bodies)
+    plan->bodies.push_back(plan_body(plan->scene, body, source));
+  plan->memory = memory_of(plan->bodies);
+  add_warnings(*plan);
+  return plan;
+}
+
+void check_memory(const Plan& plan) {
+  const auto available = static_cast<double>(physical_memory());
+  if (plan.memory <= available) return;
+  throw Error(ErrorCode::resources, "the scene needs about " + bytes_text(plan.memory) +
+                                        " of memory, the machine has " + bytes_text(available));
+}
+
+void print_plan(std::ostream& out, const Plan& plan) {
+  const Scene& scene = plan.scene;
+  std::size_t vertices = 0;
+  std::set<const Archive*> archives;
+  for (const PlannedBody& body : plan.bodies) {
+    vertices += body.archive->geometry().input.vertices.size();
+    archives.insert(body.archive);
+  }
+  out << "bodies:  " << plan.bodies.size() << " from " << count_text(archives.size(), "archive")
+      << ", " << count_text(vertices, "vertex") << "\n";
+  out << "memory:  " << to_text(std::ceil(plan.memory / 1e5) / 10) << " MB\n";
+  out << "time:    " << count_text(static_cast<std::size_t>(plan.steps), "step") << " of "
+      << to_text(scene.time_step) << " s\n";
+  out << "threads: " << thread_count() << "\n";
+  out << "output:  " << count_text(static_cast<std::size_t>(plan.frames()), "frame") << " as";
+  for (OutputFormat format : scene.output.formats)
+    out << (format == scene.output.formats.front() ? " " : ", ") << format_name(format);
+  const auto& fields = scene.output.fields;
+  if (std::count(fields.begin(), fields.end(), OutputField::tractions) > 0)
+    out << ", with tractions";
+  out << "\n";
+  for (const PlannedBody& body : plan.bodies) print_body(out, body, scene.gravity);
+}
+
+}  // namespace bem

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "archive_source.hpp"
+#include "frame_schedule.hpp"
+#include "options.hpp"
+
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bem {
+
+/// What is known of a body before its matrices are loaded.
+struct PlannedBody {
+  const BodySpec* spec;
+  const Archive* archive;
+  std::size_t fixed = 0, handled = 0;  ///< vertices (nodes) with prescribed positions
+  std::vector<std::size_t> loaded;     ///< triangles by load
+};
+
+/// A run that has been checked but for the contents of the matrices.
+struct Plan {
+  Scene scene;  ///< with the changes of the command line
+  long steps = 0;
+  FrameSchedule schedule = FrameSchedule::every_steps(1);
+  std::vector<PlannedBody> bodies;  ///< refer to `scene`
+  double memory = 0;                ///< matrices, columns and history [bytes], about
+  std::vector<std::string> warnings;
+
+  Plan() = default;
+  Plan(const Plan&) = delete;
+  Plan& operator=(const Plan&) = delete;
+
+  long frames() const { return schedule.count(steps); }
+};
+
+/// Applies the command line to the scene and checks everything against the archives. Throws
+/// ErrorCode::invalid_input and ErrorCode::archive.
+std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSource& source);
+
+/// Throws ErrorCode::resources if the machine cannot hold the matrices.
+void check_memory(const Plan& plan);
+
+void print_plan(std::ostream& out, const Plan& plan);
+
+}  // namespace bem

@@ -1,0 +1,190 @@
+#include "run.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/pending_file.hpp"
+#include "mesh/describe.hpp"
+#include "output/hdf5_trajectory.hpp"
+#include "output/obj_sequence.hpp"
+#include "output/output_directory.hpp"
+#include "stats.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+namespace bem {
+namespace {
+
+using Writers = std::vector<std::unique_ptr<FrameWriter>>;
+
+bool writes_tractions(const Scene& scene) {
+  const auto& fields = scene.output.fields;
+  return std::find(fields.begin(), fields.end(), OutputField::tractions) != fields.end();
+}
+
+Writers make_writers(const Plan& plan, const std::string& directory) {
+  std::vector<TrajectoryBody> bodies;
+  for (const PlannedBody& body : plan.bodies) {
+    const TriangleMesh& mesh = body.archive->geometry().input;
+    bodies.push_back(
+        {body.spec->name, mesh.vertices.size(), mesh.triangles, writes_tractions(plan.scene)});
+  }
+  Writers writers;
+  for (OutputFormat format : plan.scene.output.formats) {
+    if (format == OutputFormat::hdf5)
+      writers.push_back(std::make_unique<Hdf5Trajectory>(directory, bodies));
+    else if (format == OutputFormat::obj)
+      writers.push_back(std::make_unique<ObjSequence>(directory, bodies));
+    else
+      throw Error(ErrorCode::internal, "no writer for the format " + format_name(format));
+  }
+  return writers;
+}
+
+/// The frame is that of the mesh coordinates: without displacements a vertex with mesh coordinates
+/// x is at translation + rotation * x.
+BodyFrame frame_of(const BodySpec& spec, const Body& body, bool tractions) {
+  BodyFrame out;
+  out.positions = body.positions();
+  if (spec.frame == FrameMotion::stationary) {
+    out.rotation = spec.rotation.matrix();
+    out.translation = spec.position;
+  } else {
+    out.rotation = body.frame().rotation();
+    out.translation = body.frame().translation() - out.rotation * body.model().geometry.mass.centre;
+  }
+  if (tractions) out.tractions = body.tractions();
+  return out;
+}
+
+/// What is on the disk is always finite.
+void check_finite(const Body& body, const BodyFrame& frame, double time) {
+  const auto finite = [](const std::vector<Vec3>& vectors) {
+    return std::all_of(vectors.begin(), vectors.end(), [](const Vec3& v) { return v.allFinite(); });
+  };
+  if (!finite(frame.positions) || !finite(frame.tractions) || !frame.translation.allFinite() ||
+      !frame.rotation.allFinite())
+    throw Error(ErrorCode::numerical,
+                "body " + in_quotes(body.name()) +
+                    " has a number that is not finite at t = " + to_text(time) + " s");
+}
+
+/// One run: the simulation, its output and what is measured.
+class Run {
+ public:
+  Run(const Plan& plan, ArchiveSource& source, const Options& options, Log& log)
+      : plan_(plan), log_(log), statistics_(plan.bodies.size()), bar_(log) {
+    if (!options.stats.empty()) stats_file_ = std::make_unique<PendingFile>(options.stats);
+    timer_.begin(kLoadingPhase);
+    simulation_ = std::make_unique<Simulation>(plan.scene, source);
+    check_interrupt();
+    bar_.finish();
+    prepare_output_directory(options.output,
+                             options.force ? ExistingOutput::replace : ExistingOutput::refuse);
+    writers_ = make_writers(plan, options.output);
+  }
+
+  /// Steps to the end, a failure or an interruption, and completes the files in each case.
+  void go() {
+    std::string outcome = "complete";
+    std::exception_ptr failure;
+    try {
+      advance();
+    } catch (const Interrupted&) {
+      outcome = "interrupted";
+      failure = std::current_exception();
+    } catch (const Error&) {
+      outcome = "failed";
+      failure = std::current_exception();
+    }
+    bar_.finish();
+    try {
+      timer_.begin(kOutputPhase);
+      for (const auto& writer : writers_) writer->close();
+      timer_.end();
+      write_stats(outcome);
+    } catch (const Error& e) {
+      if (!failure) throw;
+      log_.warning(e.what());  // what came first is the answer
+    }
+    report(outcome);
+    if (failure) std::rethrow_exception(failure);
+  }
+
+ private:
+  void advance() {
+    set_interruption_check(nullptr);  // a step that has begun is finished
+    write_frame();
+    while (simulation_->steps() < plan_.steps) {
+      check_interrupt();
+      timer_.begin(kSteppingPhase);
+      simulation_->step();
+      statistics_.record_step(*simulation_);
+      if (plan_.schedule.contains(simulation_->steps())) write_frame();
+      bar_.update(kSteppingPhase,
+                  static_cast<double>(simulation_->steps()) / static_cast<double>(plan_.steps));
+    }
+  }
+
+  void write_frame() {
+    timer_.begin(kOutputPhase);
+    Frame frame;
+    frame.index = static_cast<std::size_t>(statistics_.frames());
+    frame.step = static_cast<std::size_t>(simulation_->steps());
+    frame.time = simulation_->time();
+    for (std::size_t i = 0; i < plan_.bodies.size(); ++i) {
+      const Body& body = simulation_->bodies()[i];
+      frame.bodies.push_back(frame_of(*plan_.bodies[i].spec, body, writes_tractions(plan_.scene)));
+      check_finite(body, frame.bodies.back(), frame.time);
+    }
+    for (const auto& writer : writers_) writer->write(frame);
+    statistics_.record_frame();
+  }
+
+  void write_stats(const std::string& outcome) {
+    if (!stats_file_) return;
+    std::ofstream file(stats_file_->temporary_path());
+    file << statistics_.json(plan_, *simulation_, timer_, outcome).dump(2) << "\n";
+    if (!file.flush())
+      throw Error(ErrorCode::resources, "the statistics cannot be written: is the disk full?");
+    stats_file_->commit();
+  }
+
+  void report(const std::string& outcome) {
+    const long steps = simulation_->steps();
+    std::string text = outcome + ": " + std::to_string(steps);
+    if (steps != plan_.steps) text += " of " + std::to_string(plan_.steps);
+    text += " steps, " + count_text(static_cast<std::size_t>(statistics_.frames()), "frame") +
+            " in " + seconds_text(timer_.total_wall_seconds());
+    log_.info(text);
+  }
+
+  const Plan& plan_;
+  Log& log_;
+  RunStatistics statistics_;
+  PhaseTimer timer_;
+  ProgressBar bar_;
+  std::unique_ptr<PendingFile> stats_file_;
+  std::unique_ptr<Simulation> simulation_;
+  Writers writers_;
+};
+
+/// Notices early what prepare_output_directory would refuse, but removes nothing yet.
+void check_output(const Options& options) {
+  prepare_output_directory(options.output,
+                           options.force ? ExistingOutput::keep : ExistingOutput::refuse);
+}
+
+}  // namespace
+
+int run_simulation(const Plan& plan, ArchiveSource& source, const Options& options, Log& log) {
+  check_output(options);
+  Run run(plan, source, options, log);
+  run.go();
+  return 0;
+}
+
+}  // namespace bem
