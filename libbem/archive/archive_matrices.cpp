@@ -132,14 +132,15 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
     load_initial("traction_response", model.traction_response);
     load_lags("g", model.g);
   }
-  const auto read_balance = [this](const char* path) -> Eigen::MatrixXd {
-    const std::vector<double> data = file_.read<double>(path, {6, unknowns()});
-    const auto n = static_cast<Eigen::Index>(unknowns());
-    return Eigen::Map<const Eigen::MatrixXd>(data.data(), n, 6).transpose();
-  };
-  model.balance = read_balance(kBalancePath);
-  model.traction_balance = read_balance(kTractionBalancePath);
+  model.balance = load_balance(kBalancePath);
+  model.traction_balance = load_balance(kTractionBalancePath);
   return model;
+}
+
+Eigen::MatrixXd Archive::load_balance(const std::string& path) const {
+  const std::vector<double> data = file_.read<double>(path, {6, unknowns()});
+  const auto n = static_cast<Eigen::Index>(unknowns());
+  return Eigen::Map<const Eigen::MatrixXd>(data.data(), n, 6).transpose();
 }
 
 void Archive::check_matrices(const Progress& progress) const {
@@ -148,6 +149,9 @@ void Archive::check_matrices(const Progress& progress) const {
   if (!std::all_of(force.lags.begin(), force.lags.end(), finite) ||
       !std::all_of(force.initial.begin(), force.initial.end(), finite))
     refuse(std::string(kBodyForcePath) + " has a number that is not finite");
+  for (const char* path : {kBalancePath, kTractionBalancePath})
+    if (!load_balance(path).allFinite())
+      refuse(std::string(path) + " has a number that is not finite");
   const std::vector<std::string> paths = matrix_paths();
   Loading loading(*this, paths.size(), progress);
   for (const std::string& path : paths) loading.check_numbers(path);

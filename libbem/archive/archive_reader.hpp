@@ -49,6 +49,9 @@ class Archive {
 
   BodyForce load_body_force() const;
 
+  /// One of the balance matrices at kBalancePath or kTractionBalancePath, 6 x unknowns.
+  Eigen::MatrixXd load_balance(const std::string& path) const;
+
   /// Reads all matrices and checks their extents and that every number is finite.
   void check_matrices(const Progress& progress = nullptr) const;
 

@@ -20,7 +20,8 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 double overhead_bytes(const BodyGeometry& g, double datasets) {
   const auto vertices = static_cast<double>(g.input.vertices.size() + g.nodes.vertices.size());
   const auto triangles = static_cast<double>(g.input.triangles.size());
-  return 28 * vertices + 28 * triangles + 400 * datasets + 7000;
+  const auto nodes = static_cast<double>(g.nodes.vertices.size());
+  return 28 * vertices + 28 * triangles + 288 * nodes + 400 * datasets + 7000;
 }
 
 double matrix_bytes(const BodyModel& model) {

@@ -1,5 +1,6 @@
 #include "diff.hpp"
 
+#include "archive/archive_layout.hpp"
 #include "report.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ class Comparison {
       report("matrices", "cannot be compared: they have " + std::to_string(a_.unknowns()) +
                              " and " + std::to_string(b_.unknowns()) + " unknowns");
     } else {
-      compare_body_force();
+      compare_small_matrices();
       compare_matrices();
     }
     return equal_;
@@ -95,7 +96,7 @@ class Comparison {
     report("body/inertia", inertia);
   }
 
-  void compare_body_force() {
+  void compare_small_matrices() {
     const BodyForce a = a_.load_body_force(), b = b_.load_body_force();
     Norms lags, initial;
     for (std::size_t i = 0; i < std::min(a.lags.size(), b.lags.size()); ++i)
@@ -106,6 +107,12 @@ class Comparison {
                   2 * static_cast<std::size_t>(a.initial[i].size()));
     report("matrices/body_force/lags", lags);
     report("matrices/body_force of lag 0", initial);
+    for (const std::string path : {kBalancePath, kTractionBalancePath}) {
+      const Eigen::MatrixXd x = a_.load_balance(path), y = b_.load_balance(path);
+      Norms balance;
+      balance.add(x.data(), y.data(), static_cast<std::size_t>(x.size()));
+      report(path.substr(1), balance);
+    }
   }
 
   void compare_matrices() {

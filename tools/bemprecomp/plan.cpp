@@ -136,6 +136,7 @@ TimeEstimate estimate_time(const Plan& plan) {
   for (const InitialComponent& c : d.scheme.initial_components())
     t.inversion += c.paired ? seconds_of_inversion<Complex>(3 * nodes)
                             : seconds_of_inversion<double>(3 * nodes);
+  t.inversion += seconds_of_inversion<double>(3 * nodes) / 4;  // static balance: factors alone
   // a step reads the H_k, about half of what is stored
   t.growth =
       (kGrowthSteps + d.history_length) * plan.memory.stored / 2 * seconds_per_byte_of_products();

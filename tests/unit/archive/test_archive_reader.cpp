@@ -43,6 +43,10 @@ void check_motion(const BodyModel& a, const BodyModel& b) {
   check_same(a.precision, a.inverse, b.inverse);
   CHECK(a.body_force == b.body_force);
   CHECK(a.initial_body_force == b.initial_body_force);
+  REQUIRE(a.balance.rows() == 6);
+  CHECK(a.balance == b.balance);
+  REQUIRE(a.traction_balance.rows() == 6);
+  CHECK(a.traction_balance == b.traction_balance);
 }
 
 void check_small_parts(const BodyModel& a, const BodyModel& b) {
