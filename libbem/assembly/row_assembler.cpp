@@ -14,7 +14,9 @@ double largest_symbol(const Scheme& scheme) {
   constexpr int kSamples = 64;
   for (int i = 0; i <= kSamples; ++i) {
     const StageMatrixC delta = scheme.delta(std::polar(1.0, kPi * i / kSamples));
-    for (const Complex& value : delta.eigenvalues()) largest = std::max(largest, std::abs(value));
+    double smallest = std::abs(delta.eigenvalues()[0]);
+    for (const Complex& value : delta.eigenvalues()) smallest = std::min(smallest, std::abs(value));
+    largest = std::max(largest, smallest);
   }
   return largest;
 }

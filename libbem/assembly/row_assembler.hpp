@@ -89,7 +89,8 @@ class RowAssembler {
   VertexFans fans_;
 };
 
-/// Bound of |Delta| on the unit circle: |s|_max dt of the scheme.
+/// |s|_max dt of the scheme: the largest modulus on the unit circle of the principal eigenvalue of
+/// Delta. (The other eigenvalue of a Runge-Kutta method is strongly damped where it is larger.)
 double largest_symbol(const Scheme& scheme);
 
 }  // namespace bem
