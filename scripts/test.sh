@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 ./scripts/setup.sh
-cmake --preset release
+cmake --preset release -DBEM_BUILD_TESTS=ON
 cmake --build --preset release --parallel "$(nproc)"
 
 log=$(mktemp)
