@@ -23,5 +23,5 @@ done
 scripts/render.py "$out/beam/trajectory.h5" -o "$out/beam" --sheet "$out/beam.png" --columns 3 \
   --sheet-frames 6 --color traction
 scripts/render.py "$out/bunny/trajectory.h5" -o "$out/bunny" --sheet "$out/preview.png" \
-  --mp4 "$out/bunny.mp4" --fps 25
+  --mp4 "$out/bunny.mp4" --every 2 --fps 25
 echo "Look at $out/preview.png and $out/beam.png"
