@@ -214,7 +214,8 @@ void Body::end_step() {
   for (std::size_t i = 0; i < x.size(); ++i)
     displacement_.segment<3>(static_cast<Eigen::Index>(3 * i)) += rigid_displacement(offset, x[i]);
   frame_.advance(stages_);
-  if (!displacement_.allFinite() || !frame_.translation().allFinite())
+  if (!displacement_.allFinite() || !frame_.translation().allFinite() ||
+      !frame_.rotation().allFinite())
     throw Error(ErrorCode::numerical,
                 "body \"" + spec_.name +
                     "\" has non-finite positions at t = " + std::to_string(frame_.time()) + " s");
