@@ -1,6 +1,7 @@
 #include "dynamics/simulation.hpp"
 
 #include "base/error.hpp"
+#include "mesh/describe.hpp"
 #include "scene/location.hpp"
 
 #include <algorithm>
@@ -15,15 +16,6 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
-  if (std::abs(dt - scene.time_step) <= 1e-9 * dt) return;
-  throw Error(ErrorCode::archive,
-              where(body.archive.location) + ": archive \"" + body.archive.written +
-                  "\" was made for a time step of " + std::to_string(dt) + " s, the scene has " +
-                  std::to_string(scene.time_step) + " s (" + where(scene.time_step_location) +
-                  "); make the archive again with --dt, or change the scene");
-}
-
 std::size_t bytes_of(const BodyModel& m) {
   std::size_t bytes = 0;
   for (const auto& h : m.h) bytes += h->bytes();
@@ -33,6 +25,16 @@ std::size_t bytes_of(const BodyModel& m) {
 }
 
 }  // namespace
+
+void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
+  if (std::abs(dt - scene.time_step) <= 1e-9 * dt) return;
+  throw Error(ErrorCode::archive,
+              where(body.archive.location) + ": the archive " + in_quotes(body.archive.written) +
+                  " was made for the time step " + to_text(dt) + " s, the scene has " +
+                  to_text(scene.time_step) + " s (" + where(scene.time_step_location) +
+                  "); make the archive again with --dt " + to_text(scene.time_step) +
+                  ", or change the scene");
+}
 
 long step_count(double duration, double time_step) {
   return std::lround(duration / time_step);

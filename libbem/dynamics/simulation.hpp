@@ -49,6 +49,10 @@ class Simulation {
   std::size_t matrix_bytes_ = 0, archives_ = 0;
 };
 
+/// Throws ErrorCode::archive, naming the place in the scene, if the archive of a body was made for
+/// another time step than the scene's.
+void check_time_step(const Scene& scene, const BodySpec& body, double archive_time_step);
+
 /// Number of steps of a scene: duration / time step, rounded to the nearest.
 long step_count(double duration, double time_step);
 

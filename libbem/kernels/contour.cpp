@@ -41,6 +41,19 @@ std::vector<double> static_lane_factors(const Scheme& scheme, const LaneLayout& 
   return factors;
 }
 
+Eigen::MatrixXd static_columns(const Scheme& scheme, const LaneLayout& layout,
+                               const std::vector<Eigen::MatrixXcd>& initial,
+                               const std::vector<Eigen::MatrixXd>& lags) {
+  const std::vector<double> factors = static_lane_factors(scheme, layout);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(initial.at(0).rows(), initial[0].cols());
+  for (std::size_t i = 0, lane = 0; i < initial.size(); ++i) {
+    sum += factors[lane++] * initial[i].real();
+    if (scheme.initial_components()[i].paired) sum += factors[lane++] * initial[i].imag();
+  }
+  for (std::size_t k = 0; k < lags.size(); ++k) sum += factors[layout.initial + k] * lags[k];
+  return sum;
+}
+
 struct ContourQuadrature::Transform {
   explicit Transform(int length) : n(length) {
     const FftwComplex in(fftw_alloc_complex(n / 2 + 1));

@@ -25,6 +25,12 @@ struct LaneLayout {
 /// Factors that make the static value X(0) out of the lanes of a closed sequence of weights.
 std::vector<double> static_lane_factors(const Scheme& scheme, const LaneLayout& layout);
 
+/// The static value of columns that are given at lag 0 by initial component (n x inputs) and by
+/// component at the later lags.
+Eigen::MatrixXd static_columns(const Scheme& scheme, const LaneLayout& layout,
+                               const std::vector<Eigen::MatrixXcd>& initial,
+                               const std::vector<Eigen::MatrixXd>& lags);
+
 /// Convolution quadrature weights of arbitrary transfer functions by the contour formula (M9) with
 /// L = 4 (last_lag + 1) points and aliasing parameter 1e-14: absolute error about 1e-14 of the
 /// function's size. Immutable after construction; weights() may be called from several threads.

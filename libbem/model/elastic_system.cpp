@@ -120,17 +120,9 @@ Eigen::MatrixXd ElasticSystem::acceleration_stages(const SpectralState& state) c
 
 InputColumns ElasticSystem::make_columns(std::vector<Eigen::MatrixXd> lags,
                                          const std::vector<Eigen::MatrixXcd>& initial) const {
-  const Eigen::Index inputs = initial.at(0).cols();
   const LaneLayout layout(scheme(), model_.discretisation.history_length);
-  const std::vector<double> factors = static_lane_factors(scheme(), layout);
-  Eigen::MatrixXd at_rest = Eigen::MatrixXd::Zero(initial[0].rows(), inputs);
-  for (std::size_t i = 0, lane = 0; i < initial.size(); ++i) {
-    at_rest += factors[lane++] * initial[i].real();
-    if (scheme().initial_components()[i].paired) at_rest += factors[lane++] * initial[i].imag();
-  }
-  for (std::size_t k = 0; k < lags.size(); ++k) at_rest += factors[layout.initial + k] * lags[k];
   InputColumns columns;
-  columns.balanced_acceleration = model_.balance * at_rest;
+  columns.balanced_acceleration = model_.balance * static_columns(scheme(), layout, initial, lags);
   columns.lags = std::move(lags);
   for (std::size_t i = 0; i < initial.size(); ++i) {
     Eigen::MatrixXcd u = apply_inverse(static_cast<int>(i), initial[i]);

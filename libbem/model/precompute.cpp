@@ -234,16 +234,9 @@ void compute_balance(BodyModel& model, StaticSystem&& at_rest, const Progress& p
   if (progress) progress("static balance", 0);
   const Scheme& scheme = model.discretisation.scheme;
   const LaneLayout layout(scheme, model.discretisation.history_length);
-  const std::vector<double> factors = static_lane_factors(scheme, layout);
+  const Eigen::MatrixXd body_force =
+      static_columns(scheme, layout, model.initial_body_force, model.body_force);
   const auto n = at_rest.g.rows();
-  Eigen::MatrixXd body_force = Eigen::MatrixXd::Zero(n, 6);
-  for (std::size_t i = 0, lane = 0; i < model.initial_body_force.size(); ++i) {
-    body_force += factors[lane++] * model.initial_body_force[i].real();
-    if (scheme.initial_components()[i].paired)
-      body_force += factors[lane++] * model.initial_body_force[i].imag();
-  }
-  for (std::size_t k = 0; k < model.body_force.size(); ++k)
-    body_force += factors[layout.initial + k] * model.body_force[k];
 
   constexpr double kShift = 1e-10;  // keeps the singular matrix factorisable
   at_rest.h_transposed.diagonal().array() += kShift;

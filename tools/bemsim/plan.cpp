@@ -41,16 +41,6 @@ void apply_options(const Options& o, Plan& plan) {
         to_text(1 / scene.time_step) + " per second");
 }
 
-void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
-  if (std::abs(dt - scene.time_step) <= 1e-9 * dt) return;
-  throw Error(ErrorCode::archive,
-              where(body.archive.location) + ": the archive " + in_quotes(body.archive.written) +
-                  " was made for the time step " + to_text(dt) + " s, the scene has " +
-                  to_text(scene.time_step) + " s (" + where(scene.time_step_location) +
-                  "); make the archive again with --dt " + to_text(scene.time_step) +
-                  ", or change the scene");
-}
-
 PlannedBody plan_body(const Scene& scene, const BodySpec& spec, ArchiveSource& source) {
   PlannedBody body{&spec, &source.open(spec.archive), 0, 0, {}};
   check_time_step(scene, spec, body.archive->discretisation().dt);
