@@ -5,7 +5,8 @@ import re
 import sys
 
 ORDER = ["base", "algebra", "mesh", "kernels", "quadrature", "assembly", "compress", "model",
-         "archive", "scene", "dynamics", "contact", "output"]
+         "archive", "scene", "dynamics", "contact", "simulation",
+         "output"]
 ROOT = pathlib.Path(__file__).resolve().parent.parent / "libbem"
 
 

@@ -40,7 +40,8 @@ class Archive::Loading {
     });
   }
 
-  Eigen::MatrixXd load_columns(const std::string& path, const std::vector<int>& columns) {
+  std::unique_ptr<StoredMatrix> load_columns(const std::string& path,
+                                             const std::vector<int>& columns) {
     return precision_ == Precision::float32 ? pick_columns<float>(path, columns)
                                             : pick_columns<double>(path, columns);
   }
@@ -57,19 +58,20 @@ class Archive::Loading {
   }
 
   template <class T>
-  Eigen::MatrixXd pick_columns(const std::string& path, const std::vector<int>& columns) {
+  std::unique_ptr<StoredMatrix> pick_columns(const std::string& path,
+                                             const std::vector<int>& columns) {
     check(path, hdf5_type<T>());
-    Eigen::MatrixXd out(static_cast<Eigen::Index>(n_), static_cast<Eigen::Index>(columns.size()));
+    auto store = std::make_unique<ColumnStore<T>>(n_, columns.size());
     std::vector<T> tile(std::min(n_, tile_rows<T>()) * n_);
     for_each_tile<T>([&](std::size_t first, std::size_t rows) {
       file_.read_rows(path, first, rows, tile.data());
       parallel_for(columns.size(), [&](std::size_t c) {
-        double* column = out.col(static_cast<Eigen::Index>(c)).data() + first;
+        T* column = store->column(c) + first;
         for (std::size_t i = 0; i < rows; ++i)
           column[i] = tile[i * n_ + static_cast<std::size_t>(columns[c])];
       });
     });
-    return out;
+    return store;
   }
 
   void check(const std::string& path, Hdf5Type type) const {
@@ -157,21 +159,24 @@ void Archive::check_matrices(const Progress& progress) const {
   for (const std::string& path : paths) loading.check_numbers(path);
 }
 
-TractionData Archive::load_tractions(const std::vector<int>& columns,
+TractionData Archive::load_tractions(const std::vector<int>& nodes,
                                      const Progress& progress) const {
-  for (int c : columns)
-    require(c >= 0 && c < static_cast<std::int64_t>(unknowns()), "unknowns of tractions exist");
+  for (int node : nodes)
+    require(node >= 0 && 3 * static_cast<std::size_t>(node) < unknowns(),
+            "the nodes of tractions exist");
+  const std::vector<int> columns = unknowns_of(nodes);
   TractionData data;
-  data.unknowns = columns;
+  data.nodes = nodes;
   Loading loading(*this, matrix_paths().size() / 2, progress);
   for (int lag = 1; lag <= discretisation_.history_length; ++lag)
     for (std::size_t m = 0; m < lag_components(); ++m)
       data.lags.push_back(loading.load_columns(lag_path("g", lag, static_cast<int>(m)), columns));
   for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
     const std::string group = initial_path("traction_response", i);
-    data.response.emplace_back(loading.load_columns(group + "/real", columns).cast<Complex>());
-    if (is_paired(i))
-      data.response.back().imag() = loading.load_columns(group + "/imaginary", columns);
+    SpectralMatrix matrix;
+    matrix.real = loading.load_columns(group + "/real", columns);
+    if (is_paired(i)) matrix.imaginary = loading.load_columns(group + "/imaginary", columns);
+    data.response.push_back(std::move(matrix));
   }
   return data;
 }

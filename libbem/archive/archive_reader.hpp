@@ -3,7 +3,7 @@
 #include "archive/provenance.hpp"
 #include "archive/user_block.hpp"
 #include "base/hdf5.hpp"
-#include "model/elastic_system.hpp"
+#include "model/nodal_tractions.hpp"
 #include "model/precompute.hpp"
 
 #include <string>
@@ -42,9 +42,9 @@ class Archive {
   /// The complete model, as it was given to write_archive.
   BodyModel load_all(const Progress& progress = nullptr) const;
 
-  /// Columns of the traction matrices at some unknowns (3*node + axis). Streams the matrices, which
-  /// are never in memory as a whole.
-  TractionData load_tractions(const std::vector<int>& unknowns,
+  /// Columns of the traction matrices at some nodes, in the archive's precision. Streams the
+  /// matrices, which are never in memory as a whole.
+  TractionData load_tractions(const std::vector<int>& nodes,
                               const Progress& progress = nullptr) const;
 
   BodyForce load_body_force() const;

@@ -5,6 +5,8 @@
 
 #include "base/error.hpp"
 
+#include <algorithm>
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -88,6 +90,43 @@ void MultiplyDouble(const double* a, std::size_t rows, std::size_t columns, cons
   Multiply(a, rows, columns, x, x_stride, y, y_stride, count);
 }
 
+/// Four columns at a time, so that four streams are read side by side and y is touched less often.
+template <class T>
+void AddColumns(const T* const* columns, std::size_t count, std::size_t first, std::size_t rows,
+                const double* x, double* HWY_RESTRICT y) {
+  const Wide d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t c = 0; c < count; c += 4) {
+    const T* a[4];
+    double factor[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      a[k] = columns[std::min(c + k, count - 1)] + first;
+      factor[k] = c + k < count ? x[c + k] : 0;
+    }
+    const auto f0 = hn::Set(d, factor[0]), f1 = hn::Set(d, factor[1]);
+    const auto f2 = hn::Set(d, factor[2]), f3 = hn::Set(d, factor[3]);
+    std::size_t i = 0;
+    for (; i + lanes <= rows; i += lanes) {
+      auto sum = hn::MulAdd(LoadMatrix(d, a[0] + i), f0, hn::LoadU(d, y + i));
+      sum = hn::MulAdd(LoadMatrix(d, a[1] + i), f1, sum);
+      sum = hn::MulAdd(LoadMatrix(d, a[2] + i), f2, sum);
+      sum = hn::MulAdd(LoadMatrix(d, a[3] + i), f3, sum);
+      hn::StoreU(sum, d, y + i);
+    }
+    for (; i < rows; ++i)
+      for (int k = 0; k < 4; ++k) y[i] += a[k][i] * factor[k];
+  }
+}
+
+void AddColumnsFloat(const float* const* columns, std::size_t count, std::size_t first,
+                     std::size_t rows, const double* x, double* y) {
+  AddColumns(columns, count, first, rows, x, y);
+}
+void AddColumnsDouble(const double* const* columns, std::size_t count, std::size_t first,
+                      std::size_t rows, const double* x, double* y) {
+  AddColumns(columns, count, first, rows, x, y);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace bem
 HWY_AFTER_NAMESPACE();
@@ -97,6 +136,8 @@ namespace bem {
 
 HWY_EXPORT(MultiplyFloat);
 HWY_EXPORT(MultiplyDouble);
+HWY_EXPORT(AddColumnsFloat);
+HWY_EXPORT(AddColumnsDouble);
 
 void multiply_rows(const float* a, std::size_t rows, std::size_t columns, const double* x,
                    std::size_t x_stride, double* y, std::size_t y_stride, int count) {
@@ -108,6 +149,16 @@ void multiply_rows(const double* a, std::size_t rows, std::size_t columns, const
                    std::size_t x_stride, double* y, std::size_t y_stride, int count) {
   require(count >= 1 && count <= kMaxRightHandSides, "1 to 4 right-hand sides");
   HWY_DYNAMIC_DISPATCH(MultiplyDouble)(a, rows, columns, x, x_stride, y, y_stride, count);
+}
+
+void add_columns(const float* const* columns, std::size_t count, std::size_t first,
+                 std::size_t rows, const double* x, double* y) {
+  HWY_DYNAMIC_DISPATCH(AddColumnsFloat)(columns, count, first, rows, x, y);
+}
+
+void add_columns(const double* const* columns, std::size_t count, std::size_t first,
+                 std::size_t rows, const double* x, double* y) {
+  HWY_DYNAMIC_DISPATCH(AddColumnsDouble)(columns, count, first, rows, x, y);
 }
 
 }  // namespace bem

@@ -17,4 +17,12 @@ void multiply_rows(const float* a, std::size_t rows, std::size_t columns, const 
 void multiply_rows(const double* a, std::size_t rows, std::size_t columns, const double* x,
                    std::size_t x_stride, double* y, std::size_t y_stride, int count);
 
+/// y[i] += sum_c columns[c][first + i] x[c] for i in [0, rows), c in [0, count). Every entry is
+/// read once; sums in double precision. Pure, single threaded, on the widest vector unit; the
+/// result of a row depends on nothing but that row.
+void add_columns(const float* const* columns, std::size_t count, std::size_t first,
+                 std::size_t rows, const double* x, double* y);
+void add_columns(const double* const* columns, std::size_t count, std::size_t first,
+                 std::size_t rows, const double* x, double* y);
+
 }  // namespace bem

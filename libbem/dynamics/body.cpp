@@ -1,10 +1,8 @@
 #include "dynamics/body.hpp"
 
 #include "base/error.hpp"
-#include "dynamics/selection.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bem {
 namespace {
@@ -19,201 +17,236 @@ InitialMotion initial_motion(const BodySpec& spec, const BodyModel& model, const
   return m;
 }
 
-Vec3 rigid_displacement(const Vector6& offset, const Vec3& x) {
-  return offset.head<3>() + offset.tail<3>().cross(x);
+/// Centroids of the hat functions of some nodes: int x phi_i / int phi_i.
+std::vector<Vec3> hat_centroids(const TriangleMesh& mesh, const std::vector<JointNode>& nodes) {
+  std::vector<Vec3> moments(mesh.vertices.size(), Vec3::Zero());
+  for (const Triangle& t : mesh.triangles) {
+    const double twelfth = triangle_area(mesh, t) / 12;
+    const Vec3 sum = mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]];
+    for (int v : t) moments[v] += twelfth * (sum + mesh.vertices[v]);
+  }
+  const std::vector<double> areas = vertex_areas(mesh);
+  std::vector<Vec3> out;
+  for (const JointNode& n : nodes) out.emplace_back(moments[n.node] / areas[n.node]);
+  return out;
 }
 
-/// The columns of some unknowns out of those that were loaded for all bodies of the archive.
-InputColumns pick_columns(const ElasticSystem& system, const TractionData& all,
-                          const std::vector<PrescribedNode>& nodes) {
-  std::vector<Eigen::Index> picked;
-  TractionData data;
-  for (const PrescribedNode& p : nodes)
-    for (int axis = 0; axis < 3; ++axis) {
-      const int unknown = 3 * p.node + axis;
-      const auto it = std::lower_bound(all.unknowns.begin(), all.unknowns.end(), unknown);
-      require(it != all.unknowns.end() && *it == unknown, "the traction columns are loaded");
-      picked.push_back(it - all.unknowns.begin());
-      data.unknowns.push_back(unknown);
-    }
-  for (const Eigen::MatrixXd& m : all.lags) data.lags.emplace_back(m(Eigen::all, picked));
-  for (const Eigen::MatrixXcd& m : all.response) data.response.emplace_back(m(Eigen::all, picked));
-  return system.make_columns(data);
+std::vector<int> node_numbers(const std::vector<JointNode>& nodes) {
+  std::vector<int> out;
+  out.reserve(nodes.size());
+  for (const JointNode& n : nodes) out.push_back(n.node);
+  return out;
 }
 
 }  // namespace
 
-Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec3& gravity)
+Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec3& gravity,
+           std::vector<JointNode> joint_nodes)
     : spec_(spec),
       shared_(shared),
-      system_(*shared.system),
       dt_(dt),
-      frame_(system_.scheme(), dt, shared.model->geometry.mass,
+      stage_count_(shared.model->discretisation.scheme.stages()),
+      stage_times_(shared.model->discretisation.scheme.stage_times()),
+      frame_(shared.model->discretisation.scheme, dt, shared.model->geometry.mass,
              initial_motion(spec, *shared.model, gravity), spec.frame == FrameMotion::stationary),
-      offset_(system_.scheme(), dt) {
-  const int stages = system_.scheme().stages();
-  const auto n = static_cast<Eigen::Index>(3 * shared.model->nodes());
+      joint_nodes_(std::move(joint_nodes)),
+      anchor_levers_(hat_centroids(shared.model->geometry.nodes, joint_nodes_)) {
+  if (shared_.system)
+    elastic_.emplace(*shared_.system, shared_.tractions.get(), node_numbers(joint_nodes_));
   for (const TractionSpec& t : spec_.tractions) {
-    Load load;
-    load.load = std::make_unique<SurfaceLoad>(t, system_, *shared.assembler, frame_.rotation());
-    load.history = system_.make_history(load.load->inputs());
-    load.stages = Eigen::MatrixXd::Zero(load.load->inputs(), stages);
-    loads_.push_back(std::move(load));
+    PrescribedLoad p{{t, shared_.model->geometry, frame_.rotation()}, {}, {}};
+    p.stages = Eigen::MatrixXd::Zero(p.load.inputs(), stage_count_);
+    if (elastic_) {
+      p.load.make_columns(*shared_.system, *shared_.assembler);
+      p.history = shared_.system->make_history(p.load.inputs());
+    }
+    loads_.push_back(std::move(p));
   }
-  const auto nodes = prescribed_nodes(shared.model->geometry, spec_);
-  if (!nodes.empty()) {
-    constraints_ = std::make_unique<BilateralConstraints>(
-        nodes, pick_columns(system_, shared.tractions, nodes), system_, frame_);
-    tractions_ = Eigen::MatrixXd::Zero(constraints_->unknowns(), stages);
-    traction_history_ = system_.make_history(constraints_->unknowns());
-  }
-  displacement_history_ = system_.make_history(n);
-  acceleration_history_ = system_.make_history(6);
-  displacement_ = Eigen::VectorXd::Zero(n);
+  joint_forces_ =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * joint_nodes_.size()), stage_count_);
+  displacement_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * shared.model->nodes()));
 }
 
 double Body::stage_time(int stage) const {
-  return frame_.time() + dt_ * system_.scheme().stage_times()[stage];
+  return frame_.time() + dt_ * stage_times_[stage];
 }
 
-void Body::begin_step() {
-  const auto n = static_cast<Eigen::Index>(3 * shared_.model->nodes());
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, shared_.model->components());
-  system_.subtract_displacement_history(displacement_history_, sums);
-  system_.add_input_history(system_.body_force(), acceleration_history_, sums);
-  for (const Load& load : loads_)
-    system_.add_input_history(load.load->columns(), load.history, sums);
-  if (constraints_) system_.add_input_history(constraints_->columns(), traction_history_, sums);
-  state_ = system_.solve(sums);
+/// The window acts on rigid motion like a leak of (1-q)/dt. A free body has a slow leak besides, so
+/// that the small imbalance of the discretisation cannot accumulate.
+double Body::leak(bool held) const {
+  constexpr double kLeakPerTraversal = 0.05;
+  const BodyModel& m = *shared_.model;
+  const double window = (1 - m.window) / dt_;
+  const double traversal = m.geometry.extent / m.discretisation.material.shear_speed();
+  return held ? window : std::max(window, kLeakPerTraversal / traversal);
 }
 
-void Body::evaluate_loads(const std::vector<Mat3>& rotations) {
-  for (Load& load : loads_)
-    for (std::size_t a = 0; a < rotations.size(); ++a)
-      load.stages.col(static_cast<Eigen::Index>(a)) =
-          load.load->values(stage_time(static_cast<int>(a)), rotations[a]);
+void Body::begin_step(SpectralState free, bool held) {
+  if (elastic_) elastic_->begin_step(std::move(free), leak(held));
+  contact_nodes_.clear();
+  contact_forces_.resize(0);
+  // until the first update() everything stays where it is
+  const RigidFrame::Stages now = frame_.current();
+  frame_stages_.translation.assign(stage_count_, now.translation[0]);
+  frame_stages_.rotation.assign(stage_count_, now.rotation[0]);
+  end_known_ = false;
 }
 
-/// Frame under the current loads and tractions, whose body axes are turned by `rotations`.
-RigidFrame::Stages Body::move_frame(const std::vector<Mat3>& rotations) const {
-  std::vector<Vec3> forces, torques;
-  for (std::size_t a = 0; a < rotations.size(); ++a) {
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    const auto stage = static_cast<Eigen::Index>(a);
-    for (const Load& load : loads_) {
-      force += load.load->force() * load.stages.col(stage);
-      torque += load.load->torque() * load.stages.col(stage);
-    }
-    if (constraints_) {
-      force += constraints_->force(tractions_.col(stage));
-      torque += constraints_->torque(tractions_.col(stage));
-    }
-    forces.push_back(rotations[a] * force);
-    torques.push_back(rotations[a] * torque);
+void Body::set_contact_nodes(std::vector<int> nodes) {
+  contact_nodes_ = std::move(nodes);
+  contact_forces_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * contact_nodes_.size()));
+  if (elastic_) elastic_->set_contact_nodes(contact_nodes_);
+}
+
+NodalForces Body::nodal_forces() const {
+  NodalForces forces{joint_forces_, contact_forces_};
+  const Mat3 to_body = frame_stages_.rotation.back().transpose();
+  for (std::size_t i = 0; i < contact_nodes_.size(); ++i) {
+    auto f = forces.contact.segment<3>(static_cast<Eigen::Index>(3 * i));
+    f = to_body * Vec3(f);
   }
-  return frame_.stages(forces, torques);
+  return forces;
 }
 
-/// How far the prescribed nodes are from their places, in body axes (unknowns x stages).
-Eigen::MatrixXd Body::gaps(const RigidFrame::Stages& stages, const Eigen::MatrixXd& displacements,
-                           const Eigen::MatrixXd& offsets) const {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(displacements.rows(), displacements.cols());
-  for (std::size_t i = 0; i < constraints_->size(); ++i) {
-    if (!constraints_->is_active(i)) continue;
-    const Vec3& x = shared_.model->geometry.nodes.vertices[constraints_->nodes()[i].node];
-    const auto row = static_cast<Eigen::Index>(3 * i);
-    for (int a = 0; a < displacements.cols(); ++a) {
-      const Vec3 u = displacements.col(a).segment<3>(row) + rigid_displacement(offsets.col(a), x);
-      const Vec3 position = frame_.place(stages, a, x, u);
-      out.col(a).segment<3>(row) =
-          stages.rotation[a].transpose() * (constraints_->target(i, stage_time(a)) - position);
+Vec3 Body::joint_displacement(std::size_t i, int stage) const {
+  if (!elastic_) return Vec3::Zero();
+  return node_displacements_.joint.col(stage).segment<3>(static_cast<Eigen::Index>(3 * i));
+}
+
+Vec3 Body::contact_displacement(std::size_t i) const {
+  if (!elastic_) return Vec3::Zero();
+  return node_displacements_.contact.segment<3>(static_cast<Eigen::Index>(3 * i));
+}
+
+/// Where the force on a joint node acts, from the centre of mass in body axes.
+Vec3 Body::joint_lever(std::size_t i, int stage) const {
+  if (joint_nodes_[i].anchored) return anchor_levers_[i];
+  return shared_.model->geometry.nodes.vertices[joint_nodes_[i].node] +
+         joint_displacement(i, stage);
+}
+
+FrameLoads Body::frame_loads() const {
+  const std::vector<Vec3>& x = shared_.model->geometry.nodes.vertices;
+  FrameLoads out;
+  for (int a = 0; a < stage_count_; ++a) {
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    for (const PrescribedLoad& p : loads_) {
+      force += p.load.force() * p.stages.col(a);
+      torque += p.load.torque() * p.stages.col(a);
+    }
+    for (std::size_t i = 0; i < joint_nodes_.size(); ++i) {
+      const Vec3 f = joint_forces_.col(a).segment<3>(static_cast<Eigen::Index>(3 * i));
+      force += f;
+      torque += joint_lever(i, a).cross(f);
+    }
+    out.forces.push_back(frame_stages_.rotation[a] * force);
+    out.torques.push_back(frame_stages_.rotation[a] * torque);
+  }
+  // contact forces act at the end position of their point, whichever stage the frame is at
+  const Vec3 end = frame_stages_.translation.back();
+  for (std::size_t i = 0; i < contact_nodes_.size(); ++i) {
+    const Vec3 f = contact_forces_.segment<3>(static_cast<Eigen::Index>(3 * i));
+    const Vec3 point =
+        end + frame_stages_.rotation.back() * (x[contact_nodes_[i]] + contact_displacement(i));
+    if (is_rigid()) {
+      out.impulse += dt_ * f;
+      out.angular_impulse += dt_ * (point - frame_.translation()).cross(f);
+      continue;
+    }
+    for (int a = 0; a < stage_count_; ++a) {
+      out.forces[a] += f;
+      out.torques[a] += (point - frame_stages_.translation[a]).cross(f);
     }
   }
   return out;
 }
 
-/// By how much the frame of the elastic solution accelerates beyond the balanced value (6 x s). In
-/// `state` the effect of all loads and tractions of the step is included.
-Eigen::MatrixXd Body::acceleration_differences(const SpectralState& state) const {
-  Eigen::MatrixXd e = system_.acceleration_stages(state);
-  for (const Load& load : loads_) system_.subtract_balance(load.load->columns(), load.stages, e);
-  if (constraints_) system_.subtract_balance(constraints_->columns(), tractions_, e);
-  return e;
+double Body::update() {
+  end_known_ = false;
+  for (PrescribedLoad& p : loads_)
+    for (int a = 0; a < stage_count_; ++a)
+      p.stages.col(a) = p.load.values(stage_time(a), frame_stages_.rotation[a]);
+  if (elastic_) node_displacements_ = elastic_->displacements(loads_, nodal_forces());
+  const std::vector<Mat3> last = frame_stages_.rotation;
+  frame_stages_ = frame_.stages(frame_loads());
+  double turn = 0;
+  for (int a = 0; a < stage_count_; ++a)
+    turn = std::max(turn, (frame_stages_.rotation[a] - last[a]).norm());
+  return turn;
 }
 
-/// The window acts on rigid motion like a leak of (1-q)/dt. A free body has a slow leak besides, so
-/// that the small imbalance of the discretisation cannot accumulate.
-void Body::choose_leak() {
-  constexpr double kLeakPerTraversal = 0.05;
-  const BodyModel& m = *shared_.model;
-  const double window = (1 - m.window) / dt_;
-  const double traversal = m.geometry.extent / m.discretisation.material.shear_speed();
-  const bool held = constraints_ && constraints_->any_active();
-  offset_.set_leak(held ? window : std::max(window, kLeakPerTraversal / traversal));
+Vec3 Body::joint_position(std::size_t i, int stage) const {
+  return frame_.place(frame_stages_, stage,
+                      shared_.model->geometry.nodes.vertices[joint_nodes_[i].node],
+                      joint_displacement(i, stage));
 }
 
-void Body::solve_constraints() {
-  constexpr int kMostIterations = 50;
-  const double tolerance = 1e-11 * shared_.model->geometry.extent;
-  const int stage_count = system_.scheme().stages();
-  choose_leak();
-  if (constraints_) {
-    constraints_->activate(stage_time(stage_count - 1), frame_, offset_);
-    constraints_->clear_inactive(tractions_);
+Vec3 Body::contact_position(std::size_t i) const {
+  return frame_.place(frame_stages_, stage_count_ - 1,
+                      shared_.model->geometry.nodes.vertices[contact_nodes_[i]],
+                      contact_displacement(i));
+}
+
+Eigen::MatrixXd Body::compliance(Group rows, int row_stage, Group columns, int load_stage) const {
+  const std::vector<Vec3>& x = shared_.model->geometry.nodes.vertices;
+  const auto node = [&](Group g, std::size_t i) {
+    return g == Group::joint ? joint_nodes_[i].node : contact_nodes_[i];
+  };
+  const auto count = [&](Group g) {
+    return g == Group::joint ? joint_nodes_.size() : contact_nodes_.size();
+  };
+  const int stage = rows == Group::contact ? stage_count_ - 1 : row_stage;
+  // position of the frame by a unit acceleration
+  double gain = 0;
+  if (columns == Group::joint)
+    gain = frame_.position_by_acceleration()(stage, load_stage);
+  else if (is_rigid())
+    gain = dt_ * dt_ * stage_times_[stage];
+  else
+    gain = frame_.position_by_acceleration().row(stage).sum();
+  Eigen::MatrixXd turn(3, 3 * count(columns));
+  for (std::size_t j = 0; j < count(columns); ++j) {
+    const bool anchored = columns == Group::joint && joint_nodes_[j].anchored;
+    turn.middleCols<3>(static_cast<Eigen::Index>(3 * j)) =
+        gain * frame_.inverse_inertia() *
+        cross_matrix(anchored ? anchor_levers_[j] : x[node(columns, j)]);
   }
-  // Rotations enter the loads and the directions of the forces: iterate from the last ones.
-  std::vector<Mat3> rotations(stage_count, frame_.rotation());
-  double last_residual = std::numeric_limits<double>::infinity();
-  for (statistics_ = {};;) {
-    ++statistics_.iterations;
-    evaluate_loads(rotations);
-    stages_ = move_frame(rotations);
-    double turn = 0;
-    for (int a = 0; a < stage_count; ++a)
-      turn = std::max(turn, (stages_.rotation[a] - rotations[a]).norm());
-    rotations = stages_.rotation;
-    if (constraints_ && constraints_->any_active()) {
-      SpectralState loaded = state_;
-      for (const Load& load : loads_) system_.add_inputs(load.load->columns(), load.stages, loaded);
-      const Eigen::MatrixXd u = constraints_->displacements(loaded, tractions_);
-      constraints_->add_accelerations(tractions_, loaded);
-      const Eigen::MatrixXd gap =
-          gaps(stages_, u, offset_.stages(acceleration_differences(loaded)));
-      statistics_.residual = gap.cwiseAbs().maxCoeff();
-      if (!std::isfinite(statistics_.residual)) break;
-      const bool met = statistics_.residual <= tolerance && turn < 1e-12;
-      // rounding in the positions ends the progress a little above the tolerance
-      const bool stalled =
-          statistics_.iterations > 10 && statistics_.residual > 0.5 * last_residual;
-      if (met || stalled || statistics_.iterations >= kMostIterations) break;
-      last_residual = statistics_.residual;
-      constraints_->correct(gap, tractions_);
-    } else if (turn < 1e-13 || statistics_.iterations >= kMostIterations) {
-      break;
-    }
+  Eigen::MatrixXd out = elastic_
+                            ? elastic_->compliance(rows, row_stage, columns, load_stage)
+                            : Eigen::MatrixXd::Zero(3 * count(rows), 3 * count(columns));
+  const Mat3 shift = gain / frame_.mass() * Mat3::Identity();
+  for (std::size_t i = 0; i < count(rows); ++i) {
+    auto row = out.middleRows<3>(static_cast<Eigen::Index>(3 * i));
+    row.noalias() -= cross_matrix(x[node(rows, i)]) * turn;
+    for (std::size_t j = 0; j < count(columns); ++j)
+      row.middleCols<3>(static_cast<Eigen::Index>(3 * j)) += shift;
   }
+  return out;
+}
+
+std::vector<Vec3> Body::end_positions() {
+  if (!end_known_ && elastic_)
+    end_displacement_ = elastic_->end_displacement(loads_, nodal_forces());
+  end_known_ = true;
+  const std::vector<Vec3>& x = shared_.model->geometry.nodes.vertices;
+  std::vector<Vec3> out;
+  out.reserve(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    out.push_back(frame_.place(
+        frame_stages_, stage_count_ - 1, x[i],
+        elastic_ ? Vec3(end_displacement_.segment<3>(static_cast<Eigen::Index>(3 * i)))
+                 : Vec3(Vec3::Zero())));
+  return out;
 }
 
 void Body::end_step() {
-  for (Load& load : loads_) {
-    system_.add_inputs(load.load->columns(), load.stages, state_);
-    load.history.push(load.stages);
+  if (elastic_) {
+    if (!end_known_) end_displacement_ = elastic_->end_displacement(loads_, nodal_forces());
+    elastic_->end_step();
+    displacement_ = end_displacement_;
+    for (PrescribedLoad& p : loads_) p.history.push(p.stages);
   }
-  if (constraints_) {
-    system_.add_inputs(constraints_->columns(), tractions_, state_);
-    traction_history_.push(tractions_);
-  }
-  const Eigen::MatrixXd u = system_.displacement_stages(state_);
-  const Eigen::MatrixXd e = acceleration_differences(state_);
-  displacement_history_.push(u);
-  acceleration_history_.push(system_.acceleration_stages(state_));
-  const Vector6 offset = offset_.stages(e).col(u.cols() - 1);
-  offset_.advance(e);
-  displacement_ = u.col(u.cols() - 1);
-  const std::vector<Vec3>& x = shared_.model->geometry.nodes.vertices;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    displacement_.segment<3>(static_cast<Eigen::Index>(3 * i)) += rigid_displacement(offset, x[i]);
-  frame_.advance(stages_);
+  frame_.advance(frame_stages_);
   if (!displacement_.allFinite() || !frame_.translation().allFinite() ||
       !frame_.rotation().allFinite())
     throw Error(ErrorCode::numerical,
@@ -221,9 +254,21 @@ void Body::end_step() {
                     "\" has non-finite positions at t = " + std::to_string(frame_.time()) + " s");
 }
 
+std::vector<Vec3> Body::node_positions() const {
+  const std::vector<Vec3>& x = shared_.model->geometry.nodes.vertices;
+  const RigidFrame::Stages now = frame_.current();
+  std::vector<Vec3> out;
+  out.reserve(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    out.push_back(frame_.place(now, 0, x[i],
+                               displacement_.segment<3>(static_cast<Eigen::Index>(3 * i))));
+  return out;
+}
+
 std::vector<Vec3> Body::positions() const {
   const BodyGeometry& g = shared_.model->geometry;
   const RigidFrame::Stages now = frame_.current();
+  const std::vector<Vec3> nodes = node_positions();
   std::vector<Vec3> out;
   out.reserve(g.input.vertices.size());
   for (std::size_t v = 0; v < g.input.vertices.size(); ++v) {
@@ -231,8 +276,7 @@ std::vector<Vec3> Body::positions() const {
     if (node < 0)  // no triangle uses it: it goes with the frame
       out.push_back(frame_.place(now, 0, g.input.vertices[v] - g.mass.centre, Vec3::Zero()));
     else
-      out.push_back(
-          frame_.place(now, 0, g.nodes.vertices[node], displacement_.segment<3>(3 * node)));
+      out.push_back(nodes[node]);
   }
   return out;
 }
@@ -241,12 +285,10 @@ std::vector<Vec3> Body::tractions() const {
   const BodyGeometry& g = shared_.model->geometry;
   Eigen::Matrix3Xd nodal =
       Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(g.nodes.vertices.size()));
-  for (const Load& load : loads_)
-    load.load->add_nodal_tractions(load.stages.col(load.stages.cols() - 1), nodal);
-  if (constraints_)
-    for (std::size_t i = 0; i < constraints_->size(); ++i)
-      nodal.col(constraints_->nodes()[i].node) +=
-          tractions_.col(tractions_.cols() - 1).segment<3>(static_cast<Eigen::Index>(3 * i));
+  for (const PrescribedLoad& p : loads_)
+    p.load.add_nodal_tractions(p.stages.col(p.stages.cols() - 1), nodal);
+  if (elastic_ && !frame_stages_.rotation.empty())
+    elastic_->add_nodal_tractions(nodal_forces(), nodal);
   std::vector<Vec3> out;
   for (int node : g.node_of_vertex)
     out.push_back(node < 0 ? Vec3(Vec3::Zero()) : Vec3(frame_.rotation() * nodal.col(node)));

@@ -1,83 +1,122 @@
 #pragma once
 
-#include "assembly/row_assembler.hpp"
-#include "dynamics/bilateral.hpp"
+#include "dynamics/elastic_part.hpp"
 #include "dynamics/rigid_frame.hpp"
-#include "dynamics/surface_load.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace bem {
 
-/// What bodies of the same archive share.
+/// What bodies of the same archive share. A rigid body needs the model alone.
 struct SharedModel {
   std::shared_ptr<const BodyModel> model;
   std::shared_ptr<const ElasticSystem> system;
-  std::shared_ptr<const RowAssembler> assembler;  ///< only if some body carries prescribed loads
-  TractionData tractions;  ///< of the nodes that any of the bodies prescribes
+  std::shared_ptr<const RowAssembler> assembler;     ///< if some body carries prescribed loads
+  std::shared_ptr<const NodalTractions> tractions;  ///< of the nodes that constraints may act on
 };
 
-/// How well the constraints of a step were met.
-struct SolveStatistics {
-  int iterations = 0;
-  double residual = 0;  ///< largest distance of a prescribed node from its place [m]
+/// A node that fixed vertices, handles or joints act on.
+struct JointNode {
+  int node = 0;
+  /// Held from outside by tractions spread over the surface around the node; otherwise the force
+  /// acts at the point itself, so that what two bodies exert on each other cancels exactly.
+  bool anchored = false;
 };
 
-/// One body in motion.
+/// One body in motion. A step: begin_step(), then update() until the forces of the constraints are
+/// right, then end_step(). Forces on joint nodes are in body axes and act stage by stage; forces on
+/// contact nodes are in world axes and constant over a step (for a rigid body an impulse at its
+/// start, so that a contact ends without rebound).
 class Body {
  public:
-  Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec3& gravity);
+  using Group = ElasticPart::Group;
 
-  /// A step, in the phases whose times are reported. Each may throw ErrorCode::numerical.
-  void begin_step();         ///< products with the history: displacements without new loads
-  void solve_constraints();  ///< frame, loads and unknown tractions of the new step
-  void end_step();           ///< displacements of the new step; the history moves on
+  /// `joint_nodes` ascending by node.
+  Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec3& gravity,
+       std::vector<JointNode> joint_nodes);
+
+  bool is_rigid() const { return !elastic_; }
+  int stages() const { return stage_count_; }
+  const StageVector& stage_times() const { return stage_times_; }  ///< in units of dt
+
+  /// For deformable bodies: the past, and what of it has to be multiplied by the displacement
+  /// matrices of the model.
+  const LagHistory& displacement_history() const { return elastic_->displacement_history(); }
+  Eigen::MatrixXd history_sums() const { return elastic_->history_sums(loads_); }
+
+  /// Starts a step from the displacements without new loads (rigid bodies: none). Joint forces
+  /// start from those of the last step. `held`: joints hold the body in the world.
+  void begin_step(SpectralState free, bool held);
+  /// Chooses the nodes in contact; their forces are zero after it.
+  void set_contact_nodes(std::vector<int> nodes);
+
+  const std::vector<JointNode>& joint_nodes() const { return joint_nodes_; }
+  const std::vector<int>& contact_nodes() const { return contact_nodes_; }
+  Eigen::MatrixXd& joint_forces() { return joint_forces_; }      ///< 3 per node x s [N]
+  Eigen::VectorXd& contact_forces() { return contact_forces_; }  ///< 3 per node [N]
+
+  /// Moves frame and constraint nodes under the current loads and forces, whose directions depend
+  /// on the rotations of the last call. Returns how much these have changed [rad].
+  double update();
+
+  /// After update(): world positions of constraint nodes [m] and rotation of the frame.
+  Vec3 joint_position(std::size_t i, int stage) const;
+  Vec3 contact_position(std::size_t i) const;
+  const Mat3& rotation(int stage) const { return frame_stages_.rotation[stage]; }
+
+  /// d(position at `row_stage`)/d(force of `load_stage`) between groups of nodes, in body axes
+  /// [m/N]; contact forces act over the whole step, contact positions are those at its end.
+  Eigen::MatrixXd compliance(Group rows, int row_stage, Group columns, int load_stage) const;
+
+  /// World positions of all nodes at the end of the step that update() has computed.
+  std::vector<Vec3> end_positions();
+  /// Takes the end of the step as the new state. Throws ErrorCode::numerical if it is not finite.
+  void end_step();
 
   const std::string& name() const { return spec_.name; }
+  const BodySpec& spec() const { return spec_; }
   const BodyModel& model() const { return *shared_.model; }
+  const ElasticSystem& system() const { return *shared_.system; }  ///< deformable bodies only
   const RigidFrame& frame() const { return frame_; }
-  const SolveStatistics& statistics() const { return statistics_; }
-  std::size_t prescribed() const { return constraints_ ? constraints_->size() : 0; }
   std::size_t loads() const { return loads_.size(); }
 
-  /// World positions [m] of the input mesh's vertices.
+  /// World positions [m] of the nodes, and of the input mesh's vertices.
+  std::vector<Vec3> node_positions() const;
   std::vector<Vec3> positions() const;
   /// World tractions [Pa] at the input mesh's vertices: prescribed loads (averaged over the
-  /// triangles around a vertex) and the reactions of prescribed nodes.
+  /// triangles around a vertex) and the forces of constraints.
   std::vector<Vec3> tractions() const;
   /// Displacements in body axes, 3 per node [m].
   const Eigen::VectorXd& displacement() const { return displacement_; }
   Vec3 linear_momentum() const { return frame_.mass() * frame_.velocity(); }
 
  private:
-  struct Load {
-    std::unique_ptr<SurfaceLoad> load;
-    LagHistory history;
-    Eigen::MatrixXd stages;  ///< inputs x s of the current step
-  };
-
   double stage_time(int stage) const;
-  void evaluate_loads(const std::vector<Mat3>& rotations);
-  RigidFrame::Stages move_frame(const std::vector<Mat3>& rotations) const;
-  Eigen::MatrixXd acceleration_differences(const SpectralState& state) const;
-  Eigen::MatrixXd gaps(const RigidFrame::Stages& stages, const Eigen::MatrixXd& displacements,
-                       const Eigen::MatrixXd& offsets) const;
-  void choose_leak();
+  FrameLoads frame_loads() const;
+  NodalForces nodal_forces() const;
+  Vec3 joint_lever(std::size_t i, int stage) const;
+  Vec3 joint_displacement(std::size_t i, int stage) const;
+  Vec3 contact_displacement(std::size_t i) const;
+  double leak(bool held) const;
 
   BodySpec spec_;
   SharedModel shared_;
-  const ElasticSystem& system_;
   double dt_;
+  int stage_count_;
+  StageVector stage_times_;
   RigidFrame frame_;
-  FrameOffset offset_;
-  std::vector<Load> loads_;
-  std::unique_ptr<BilateralConstraints> constraints_;
-  LagHistory displacement_history_, acceleration_history_, traction_history_;
-  Eigen::MatrixXd tractions_;  ///< of the prescribed nodes, unknowns x s
-  Eigen::VectorXd displacement_;
-  SpectralState state_;
-  RigidFrame::Stages stages_;
-  SolveStatistics statistics_;
+  std::optional<ElasticPart> elastic_;
+  std::vector<PrescribedLoad> loads_;
+  std::vector<JointNode> joint_nodes_;
+  std::vector<Vec3> anchor_levers_;  ///< by joint node: where its traction acts, in body axes
+  std::vector<int> contact_nodes_;
+  Eigen::MatrixXd joint_forces_;
+  Eigen::VectorXd contact_forces_;
+  RigidFrame::Stages frame_stages_;
+  ElasticPart::Displacements node_displacements_;
+  Eigen::VectorXd displacement_, end_displacement_;
+  bool end_known_ = false;
 };
 
 }  // namespace bem

@@ -38,18 +38,36 @@ T RigidFrame::base(const T& now, const T& before) const {
   return ((1 + theta_) * now - 0.5 * theta_ * before) / (1 + 0.5 * theta_);
 }
 
-RigidFrame::Stages RigidFrame::stages(const std::vector<Vec3>& forces,
-                                      const std::vector<Vec3>& torques) const {
+/// The states that a step starts from after an impulse: those of a uniform motion that has the new
+/// velocity, so that a multistep method has no memory of the old one.
+void RigidFrame::apply_impulse(const Stages& s, State& now, State& before) const {
+  const Mat3 r = stationary_ ? initial_rotation_ : now.rotation;
+  const Vec3 velocity = s.impulse / mass_;
+  const Vec3 turning = r * (inverse_inertia_ * (r.transpose() * s.angular_impulse));
+  for (State* state : {&now, &before}) {
+    state->velocity += velocity;
+    state->angular_momentum += s.angular_impulse;
+  }
+  before.position -= dt_ * velocity;
+  before.turn -= dt_ * turning;
+  if (!stationary_) before.rotation = rotation_exp(-dt_ * turning) * before.rotation;
+}
+
+RigidFrame::Stages RigidFrame::stages(const FrameLoads& loads) const {
   const int count = static_cast<int>(stage_times_.size());
-  const Vec3 velocity = base(state_.velocity, previous_.velocity);
-  const Vec3 position = base(state_.position, previous_.position);
-  const Vec3 momentum = base(state_.angular_momentum, previous_.angular_momentum);
+  State now = state_, before = previous_;
   Stages s;
+  s.impulse = loads.impulse;
+  s.angular_impulse = loads.angular_impulse;
+  apply_impulse(s, now, before);
+  const Vec3 velocity = base(now.velocity, before.velocity);
+  const Vec3 position = base(now.position, before.position);
+  const Vec3 momentum = base(now.angular_momentum, before.angular_momentum);
   for (int i = 0; i < count; ++i) {
     Vec3 v = velocity, l = momentum;
     for (int j = 0; j < count; ++j) {
-      v += dt_ * integration_(i, j) / mass_ * forces[j];
-      l += dt_ * integration_(i, j) * torques[j];
+      v += dt_ * integration_(i, j) / mass_ * loads.forces[j];
+      l += dt_ * integration_(i, j) * loads.torques[j];
     }
     s.velocity.push_back(v);
     s.angular_momentum.push_back(l);
@@ -60,17 +78,17 @@ RigidFrame::Stages RigidFrame::stages(const std::vector<Vec3>& forces,
     const double t = time() + stage_times_[i] * dt_;
     s.translation.push_back(x + 0.5 * t * t * gravity_);
   }
-  integrate_rotation(s);
+  integrate_rotation(now, before, s);
   return s;
 }
 
-void RigidFrame::integrate_rotation(Stages& s) const {
+void RigidFrame::integrate_rotation(const State& now, const State& before, Stages& s) const {
   const int count = static_cast<int>(stage_times_.size());
   s.turn.assign(count, Vec3::Zero());
-  s.rotation.assign(count, state_.rotation);
+  s.rotation.assign(count, now.rotation);
   if (stationary_) {
     const Mat3 inverse = initial_rotation_ * inverse_inertia_ * initial_rotation_.transpose();
-    const Vec3 start = base(state_.turn, previous_.turn);
+    const Vec3 start = base(now.turn, before.turn);
     for (int i = 0; i < count; ++i) {
       s.turn[i] = start;
       for (int j = 0; j < count; ++j)
@@ -79,10 +97,10 @@ void RigidFrame::integrate_rotation(Stages& s) const {
     return;
   }
   // rotation vectors relative to the current rotation, by fixed-point iteration
-  const Vec3 before = multistep_ && theta_ > 0
-                          ? rotation_log(previous_.rotation * state_.rotation.transpose())
-                          : Vec3::Zero();
-  const Vec3 start = base<Vec3>(Vec3::Zero(), before);
+  const Vec3 last = multistep_ && theta_ > 0
+                        ? rotation_log(before.rotation * now.rotation.transpose())
+                        : Vec3::Zero();
+  const Vec3 start = base<Vec3>(Vec3::Zero(), last);
   std::vector<Vec3> theta(count, Vec3::Zero()), rate(count);
   constexpr int kMostIterations = 60;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
@@ -97,13 +115,14 @@ void RigidFrame::integrate_rotation(Stages& s) const {
       for (int j = 0; j < count; ++j) next += dt_ * integration_(i, j) * rate[j];
       change = std::max(change, (next - theta[i]).norm());
       theta[i] = next;
-      s.rotation[i] = rotation_exp(next) * state_.rotation;
+      s.rotation[i] = rotation_exp(next) * now.rotation;
     }
     if (change < 1e-15) break;
   }
 }
 
 void RigidFrame::advance(const Stages& s) {
+  apply_impulse(s, state_, previous_);
   previous_ = state_;
   ++step_;
   state_.velocity = s.velocity.back();

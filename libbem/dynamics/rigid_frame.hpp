@@ -16,6 +16,14 @@ struct InitialMotion {
   Vec3 gravity = Vec3::Zero();           ///< acceleration of free fall [m/s^2]
 };
 
+/// What acts on a frame during a step, in world axes and about the centre of mass; gravity not
+/// included.
+struct FrameLoads {
+  std::vector<Vec3> forces, torques;    ///< at the stages [N], [N m]
+  Vec3 impulse = Vec3::Zero();          ///< at the start of the step [N s]
+  Vec3 angular_impulse = Vec3::Zero();  ///< [N m s]
+};
+
 /// The rigid motion that a body's displacements are measured from, integrated with the time
 /// discretisation of the convolution quadrature. Its state holds the angular momentum, which is
 /// constant without torque whatever the inertia; the ballistic part of the motion is exact.
@@ -29,15 +37,15 @@ class RigidFrame {
 
   /// Frame at the stages of a step.
   struct Stages {
+    Vec3 impulse, angular_impulse;  ///< at the start of the step
     std::vector<Vec3> translation;  ///< of the centre of mass [m]
     std::vector<Mat3> rotation;     ///< body to world axes
     std::vector<Vec3> velocity, angular_momentum;
     std::vector<Vec3> turn;  ///< stationary frame: linear rotation vector [rad]
   };
 
-  /// Frame at the stages of the next step under forces [N] and torques about the centre of mass
-  /// [N m] in world axes, gravity not included (one per stage).
-  Stages stages(const std::vector<Vec3>& forces, const std::vector<Vec3>& torques) const;
+  /// Frame at the stages of the next step.
+  Stages stages(const FrameLoads& loads) const;
   /// Takes the last stage as the new state.
   void advance(const Stages& stages);
 
@@ -69,7 +77,8 @@ class RigidFrame {
   };
   template <class T>
   T base(const T& now, const T& before) const;
-  void integrate_rotation(Stages& s) const;
+  void apply_impulse(const Stages& s, State& now, State& before) const;
+  void integrate_rotation(const State& now, const State& before, Stages& s) const;
 
   StageVector stage_times_;
   StageMatrix integration_, position_by_acceleration_;

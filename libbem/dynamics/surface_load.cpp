@@ -44,13 +44,11 @@ LoadColumns assemble_columns(const RowAssembler& assembler,
 
 }  // namespace
 
-SurfaceLoad::SurfaceLoad(const TractionSpec& spec, const ElasticSystem& system,
-                         const RowAssembler& assembler, const Mat3& initial_rotation)
+SurfaceLoad::SurfaceLoad(const TractionSpec& spec, const BodyGeometry& g,
+                         const Mat3& initial_rotation)
     : spec_(spec), follows_(spec.follow || spec.is_pressure()) {
-  const BodyGeometry& g = system.model().geometry;
   const Eigen::Index inputs = follows_ ? 1 : 3;
   force_ = torque_ = Eigen::Matrix3Xd::Zero(3, inputs);
-  std::vector<RowAssembler::PanelLoad> loads;
   std::map<int, Eigen::Matrix3Xd> nodal;
   for (int t : select_triangles(g, spec.select)) {
     const Triangle& triangle = g.nodes.triangles[t];
@@ -68,11 +66,14 @@ SurfaceLoad::SurfaceLoad(const TractionSpec& spec, const ElasticSystem& system,
       auto [entry, fresh] = nodal.try_emplace(v, Eigen::Matrix3Xd::Zero(3, inputs));
       entry->second += area / 3 * traction;
     }
-    loads.push_back({t, traction});
+    panels_.push_back({t, traction});
   }
   const std::vector<double> areas = vertex_areas(g.nodes);
   for (auto& [node, traction] : nodal) nodal_.emplace_back(node, traction / areas[node]);
-  LoadColumns columns = assemble_columns(assembler, loads);
+}
+
+void SurfaceLoad::make_columns(const ElasticSystem& system, const RowAssembler& assembler) {
+  LoadColumns columns = assemble_columns(assembler, panels_);
   columns_ = system.make_columns(std::move(columns.lags), columns.initial);
 }
 

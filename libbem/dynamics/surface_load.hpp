@@ -9,10 +9,12 @@ namespace bem {
 /// turns with the body, three (the world directions seen from the body) for one that does not.
 class SurfaceLoad {
  public:
-  /// Integrates the load over its triangles for every node and lag: O(N x triangles).
   /// `initial_rotation`: body to world axes at the start.
-  SurfaceLoad(const TractionSpec& spec, const ElasticSystem& system, const RowAssembler& assembler,
-              const Mat3& initial_rotation);
+  SurfaceLoad(const TractionSpec& spec, const BodyGeometry& geometry, const Mat3& initial_rotation);
+
+  /// Integrates the load over its triangles for every node and lag, O(N x triangles); not needed
+  /// for rigid bodies.
+  void make_columns(const ElasticSystem& system, const RowAssembler& assembler);
 
   const InputColumns& columns() const { return columns_; }
   Eigen::Index inputs() const { return force_.cols(); }
@@ -32,6 +34,7 @@ class SurfaceLoad {
  private:
   TractionSpec spec_;
   bool follows_;
+  std::vector<RowAssembler::PanelLoad> panels_;
   InputColumns columns_;
   Eigen::Matrix3Xd force_, torque_;
   std::vector<std::pair<int, Eigen::Matrix3Xd>> nodal_;  ///< node, 3 x inputs

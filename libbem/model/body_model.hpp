@@ -23,10 +23,16 @@ struct ModelReport {
   double growth = 0;             ///< largest growth factor per step of the free body, window 1
 };
 
+enum class ModelKind {
+  dynamic,  ///< elastodynamic matrices
+  rigid     ///< geometry and mass alone
+};
+
 /// Everything that is precomputed for one body. Matrices are numbered as in LaneLayout and Scheme:
 /// h[(lag-1)*components + m] for lags 1..history_length, one entry per initial component for lag 0.
 /// Unknowns are ordered as 3*node + axis.
 struct BodyModel {
+  ModelKind kind = ModelKind::dynamic;
   BodyGeometry geometry;
   Discretisation discretisation;
   double window = 1;  ///< factor per lag on all weights, see docs/method.md

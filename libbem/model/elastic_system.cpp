@@ -4,14 +4,18 @@
 
 namespace bem {
 
-LagHistory::LagHistory(const Scheme& scheme, Eigen::Index inputs, int history_length, double window)
-    : window_(window),
-      ring_(history_length, Eigen::MatrixXd::Zero(
-                                inputs, static_cast<Eigen::Index>(scheme.lag_components().size()))),
-      zero_(history_length, 1) {
-  right_.resize(scheme.stages(), static_cast<Eigen::Index>(scheme.lag_components().size()));
-  for (Eigen::Index m = 0; m < right_.cols(); ++m) right_.col(m) = scheme.lag_components()[m].right;
+Eigen::MatrixXd lag_inputs(const Scheme& scheme) {
+  const auto& components = scheme.lag_components();
+  Eigen::MatrixXd right(scheme.stages(), static_cast<Eigen::Index>(components.size()));
+  for (Eigen::Index m = 0; m < right.cols(); ++m) right.col(m) = components[m].right;
+  return right;
 }
+
+LagHistory::LagHistory(const Scheme& scheme, Eigen::Index inputs, int history_length, double window)
+    : right_(lag_inputs(scheme)),
+      window_(window),
+      ring_(history_length, Eigen::MatrixXd::Zero(inputs, right_.cols())),
+      zero_(history_length, 1) {}
 
 void LagHistory::push(const Eigen::MatrixXd& stages) {
   newest_ = (newest_ + ring_.size() - 1) % ring_.size();
@@ -34,15 +38,26 @@ LagHistory ElasticSystem::make_history(Eigen::Index inputs) const {
   return LagHistory(scheme(), inputs, model_.discretisation.history_length, model_.window);
 }
 
-void ElasticSystem::subtract_displacement_history(const LagHistory& u,
-                                                  Eigen::MatrixXd& component_sums) const {
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(component_sums.rows(), component_sums.cols());
-  for (int k = 1; k <= u.length(); ++k) {
-    if (u.is_zero(k)) continue;
-    for (int m = 0; m < model_.components(); ++m)
-      model_.h[model_.lag_index(k, m)]->multiply_add(u.lag(k).col(m).data(), sums.col(m).data(), 1);
+void ElasticSystem::subtract_displacement_history(
+    const std::vector<const LagHistory*>& u, std::vector<Eigen::MatrixXd>& component_sums) const {
+  const Eigen::Index n = component_sums[0].rows();
+  const int components = model_.components();
+  Eigen::MatrixXd inputs(n, static_cast<Eigen::Index>(u.size()));
+  Eigen::MatrixXd product(n, inputs.cols());
+  for (int k = 1; k <= u[0]->length(); ++k) {
+    std::vector<Eigen::Index> moving;  // bodies with anything to multiply at this lag
+    for (std::size_t b = 0; b < u.size(); ++b)
+      if (!u[b]->is_zero(k)) moving.push_back(static_cast<Eigen::Index>(b));
+    const auto count = static_cast<Eigen::Index>(moving.size());
+    for (int m = 0; m < components && count > 0; ++m) {
+      for (Eigen::Index c = 0; c < count; ++c) inputs.col(c) = u[moving[c]]->lag(k).col(m);
+      product.setZero();
+      model_.h[model_.lag_index(k, m)]->multiply_add(inputs.data(), product.data(),
+                                                     static_cast<int>(count));
+      for (Eigen::Index c = 0; c < count; ++c)
+        component_sums[moving[c]].col(m) -= product.col(c);
+    }
   }
-  component_sums -= sums;
 }
 
 void ElasticSystem::add_input_history(const InputColumns& columns, const LagHistory& inputs,
@@ -76,19 +91,30 @@ Eigen::MatrixXcd ElasticSystem::apply_inverse(int component, const Eigen::Matrix
   return out;
 }
 
-SpectralState ElasticSystem::solve(const Eigen::MatrixXd& component_sums) const {
-  Eigen::MatrixXd stage_sums = Eigen::MatrixXd::Zero(component_sums.rows(), scheme().stages());
-  for (int m = 0; m < model_.components(); ++m)
-    stage_sums.noalias() += component_sums.col(m) * scheme().lag_components()[m].left.transpose();
-  SpectralState state;
+std::vector<SpectralState> ElasticSystem::solve(
+    const std::vector<Eigen::MatrixXd>& component_sums) const {
+  const auto bodies = static_cast<Eigen::Index>(component_sums.size());
+  std::vector<Eigen::MatrixXd> stage_sums;
+  for (const Eigen::MatrixXd& sums : component_sums) {
+    stage_sums.push_back(Eigen::MatrixXd::Zero(sums.rows(), scheme().stages()));
+    for (int m = 0; m < model_.components(); ++m)
+      stage_sums.back().noalias() +=
+          sums.col(m) * scheme().lag_components()[m].left.transpose();
+  }
+  std::vector<SpectralState> states(component_sums.size());
   for (std::size_t i = 0; i < scheme().initial_components().size(); ++i) {
     const InitialComponent& c = scheme().initial_components()[i];
-    const Eigen::MatrixXcd load = stage_sums.cast<Complex>() * c.right;
-    Eigen::MatrixXcd u = apply_inverse(static_cast<int>(i), load);
-    state.acceleration.push_back(projection_.project(static_cast<int>(i), u));
-    state.displacement.push_back(u);
+    Eigen::MatrixXcd loads(stage_sums[0].rows(), bodies);
+    for (Eigen::Index b = 0; b < bodies; ++b)
+      loads.col(b) = stage_sums[b].cast<Complex>() * c.right;
+    Eigen::MatrixXcd u = apply_inverse(static_cast<int>(i), loads);
+    const Eigen::MatrixXcd z = projection_.project(static_cast<int>(i), u);
+    for (Eigen::Index b = 0; b < bodies; ++b) {
+      states[b].displacement.push_back(u.col(b));
+      states[b].acceleration.push_back(z.col(b));
+    }
   }
-  return state;
+  return states;
 }
 
 void ElasticSystem::add_inputs(const InputColumns& columns, const Eigen::MatrixXd& stages,
@@ -130,29 +156,6 @@ InputColumns ElasticSystem::make_columns(std::vector<Eigen::MatrixXd> lags,
     columns.displacement.push_back(std::move(u));
   }
   return columns;
-}
-
-InputColumns ElasticSystem::make_columns(const TractionData& tractions) const {
-  InputColumns columns;
-  columns.lags = tractions.lags;
-  columns.displacement = tractions.response;
-  columns.balanced_acceleration = model_.traction_balance(Eigen::all, tractions.unknowns);
-  for (std::size_t i = 0; i < columns.displacement.size(); ++i)
-    columns.acceleration.push_back(
-        projection_.project(static_cast<int>(i), columns.displacement[i]));
-  return columns;
-}
-
-TractionData extract_tractions(const BodyModel& model, const std::vector<int>& unknowns) {
-  require(!model.g.empty() && !model.traction_response.empty(), "traction matrices are in memory");
-  TractionData data;
-  data.unknowns = unknowns;
-  for (const auto& g : model.g) data.lags.push_back(g->extract_columns(unknowns));
-  for (const SpectralMatrix& m : model.traction_response) {
-    data.response.emplace_back(m.real->extract_columns(unknowns).cast<Complex>());
-    if (m.imaginary) data.response.back().imag() = m.imaginary->extract_columns(unknowns);
-  }
-  return data;
 }
 
 }  // namespace bem

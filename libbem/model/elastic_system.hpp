@@ -4,6 +4,9 @@
 
 namespace bem {
 
+/// What turns the stage values of an input into its component inputs: s x components.
+Eigen::MatrixXd lag_inputs(const Scheme& scheme);
+
 /// Past values of some scalar inputs (displacements, accelerations, loads), kept as the component
 /// inputs right_m . (stage values) that the lag matrices multiply, and weighted by the window.
 class LagHistory {
@@ -31,7 +34,7 @@ class LagHistory {
 };
 
 /// A few scalar inputs that act on a body, with their effect at every lag: accelerations of the
-/// frame, prescribed loads, or unknown nodal tractions.
+/// frame, or prescribed loads.
 struct InputColumns {
   std::vector<Eigen::MatrixXd> lags;           ///< right-hand side at lag >= 1, 3N x inputs
   std::vector<Eigen::MatrixXcd> displacement;  ///< projected H_0^{-1} b_0 by initial component
@@ -40,16 +43,6 @@ struct InputColumns {
 
   Eigen::Index inputs() const { return displacement.empty() ? 0 : displacement[0].cols(); }
 };
-
-/// Columns of the traction matrices at some unknowns (3*node + axis).
-struct TractionData {
-  std::vector<int> unknowns;
-  std::vector<Eigen::MatrixXd> lags;       ///< of G_k, lag >= 1, 3N x unknowns
-  std::vector<Eigen::MatrixXcd> response;  ///< of H_0^{-1} G_0 by initial component
-};
-
-/// Picks columns of a model whose traction matrices are in memory.
-TractionData extract_tractions(const BodyModel& model, const std::vector<int>& unknowns);
 
 /// Displacement and frame acceleration in spectral form, by initial component.
 struct SpectralState {
@@ -63,15 +56,18 @@ class ElasticSystem {
  public:
   explicit ElasticSystem(const BodyModel& model);
 
-  /// component_sums (3N x components) -= sum_k H_k u_{n-k}. Reads every H_k once.
-  void subtract_displacement_history(const LagHistory& u, Eigen::MatrixXd& component_sums) const;
+  /// component_sums (3N x components) -= sum_k H_k u_{n-k} for several bodies of the same model.
+  /// Reads every H_k once for all of them.
+  void subtract_displacement_history(const std::vector<const LagHistory*>& u,
+                                     std::vector<Eigen::MatrixXd>& component_sums) const;
 
   /// component_sums += sum_k b_k c_{n-k} for the inputs c of `columns`.
   void add_input_history(const InputColumns& columns, const LagHistory& inputs,
                          Eigen::MatrixXd& component_sums) const;
 
-  /// Displacements without rigid part for a history right-hand side. Reads H_0^{-1} once.
-  SpectralState solve(const Eigen::MatrixXd& component_sums) const;
+  /// Displacements without rigid part for the history right-hand sides of several bodies. Reads
+  /// H_0^{-1} once for all of them.
+  std::vector<SpectralState> solve(const std::vector<Eigen::MatrixXd>& component_sums) const;
 
   /// Adds the effect of inputs at the current step (inputs x s stage values).
   void add_inputs(const InputColumns& columns, const Eigen::MatrixXd& stages,
@@ -98,8 +94,6 @@ class ElasticSystem {
   /// lags.
   InputColumns make_columns(std::vector<Eigen::MatrixXd> lags,
                             const std::vector<Eigen::MatrixXcd>& initial) const;
-  /// Columns of nodal tractions at some unknowns.
-  InputColumns make_columns(const TractionData& tractions) const;
 
   /// H_0^{-1} v by initial component.
   Eigen::MatrixXcd apply_inverse(int component, const Eigen::MatrixXcd& v) const;

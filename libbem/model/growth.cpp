@@ -29,11 +29,11 @@ class FreeRecursion {
       a.push(Eigen::Map<const Eigen::MatrixXd>(step + unknowns_ * stages_, 6, stages_) /
              (dt_ * dt_));
     }
-    Eigen::MatrixXd sums =
-        Eigen::MatrixXd::Zero(unknowns_, static_cast<Eigen::Index>(scheme.lag_components().size()));
-    system_.subtract_displacement_history(u, sums);
-    system_.add_input_history(system_.body_force(), a, sums);
-    const SpectralState next = system_.solve(sums);
+    std::vector<Eigen::MatrixXd> sums = {Eigen::MatrixXd::Zero(
+        unknowns_, static_cast<Eigen::Index>(scheme.lag_components().size()))};
+    system_.subtract_displacement_history({&u}, sums);
+    system_.add_input_history(system_.body_force(), a, sums[0]);
+    const SpectralState next = system_.solve(sums)[0];
     Eigen::VectorXd out(size());
     Eigen::Map<Eigen::MatrixXd>(out.data(), unknowns_, stages_) = system_.displacement_stages(next);
     Eigen::Map<Eigen::MatrixXd>(out.data() + unknowns_ * stages_, 6, stages_) =

@@ -37,7 +37,7 @@ RigidProjection::RigidProjection(Eigen::MatrixXd rigid, std::vector<Eigen::Matri
 }
 
 Eigen::MatrixXcd RigidProjection::project(int component, Eigen::Ref<Eigen::MatrixXcd> v) const {
-  Eigen::MatrixXcd z = inverse_[component] * (rigid_ * v);
+  Eigen::MatrixXcd z = accelerations(component, v);
   v.noalias() -= response_[component] * z;
   return z;
 }

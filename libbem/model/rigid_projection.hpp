@@ -20,6 +20,12 @@ class RigidProjection {
   /// Projects the columns of `v` (3N x n) in place and returns z (6 x n).
   Eigen::MatrixXcd project(int component, Eigen::Ref<Eigen::MatrixXcd> v) const;
 
+  /// z (6 x n) alone.
+  Eigen::MatrixXcd accelerations(int component, const Eigen::MatrixXcd& v) const {
+    return inverse_[component] * (rigid_ * v);
+  }
+  /// B = H_0^{-1} [D_0 Q_0], 3N x 6.
+  const Eigen::MatrixXcd& response(int component) const { return response_[component]; }
   const Eigen::MatrixXd& rigid() const { return rigid_; }
 
  private:

@@ -84,12 +84,14 @@ JointSpec read_joint(const JsonValue& value, const std::vector<BodySpec>& bodies
   joint.location = value.location();
   joint.type = static_cast<JointType>(reader.required("type").choice({"point", "weld"}));
   joint.a = read_joint_end(reader.required("a"), joint.type, bodies);
-  const JsonValue b = reader.required("b");
-  joint.b = read_joint_end(b, joint.type, bodies);
-  if (joint.a.body == joint.b.body)
-    throw JsonReader(b, "a side of a joint")
-        .required("body")
-        .error("expected another body than at the side \"a\" of the joint");
+  const auto b = joint.type == JointType::point ? reader.optional("b") : reader.required("b");
+  if (b) {
+    joint.b = read_joint_end(*b, joint.type, bodies);
+    if (joint.a.body == joint.b->body)
+      throw JsonReader(*b, "a side of a joint")
+          .required("body")
+          .error("expected another body than at the side \"a\" of the joint");
+  }
   if (const auto tolerance = reader.optional("tolerance")) joint.tolerance = tolerance->positive();
   reader.finish();
   return joint;
@@ -107,6 +109,8 @@ ContactSpec read_contact(const JsonValue& value) {
   if (const auto combine = reader.optional("friction_combine"))
     contact.friction_combine =
         static_cast<FrictionCombine>(combine->choice({"max", "min", "average", "multiply"}));
+  if (const auto solver = reader.optional("solver"))
+    contact.solver = static_cast<ContactSolver>(solver->choice({"newton", "nsgs", "staggered"}));
   reader.finish();
   return contact;
 }

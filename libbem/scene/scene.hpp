@@ -139,7 +139,8 @@ enum class JointType {
 
 struct JointSpec {
   JointType type = JointType::point;
-  JointEnd a, b;
+  JointEnd a;
+  std::optional<JointEnd> b;  ///< none: a point joint to the world, where its point is at the start
   double tolerance = 1e-6;  ///< > 0 [m]
   Location location;
 };
@@ -147,11 +148,15 @@ struct JointSpec {
 /// How the coefficients of two surfaces make the one between them.
 enum class FrictionCombine { max, min, average, multiply };
 
+/// How the contact forces are found (docs/method.md).
+enum class ContactSolver { newton, nsgs, staggered };
+
 struct ContactSpec {
   bool enabled = false;     ///< true in a scene that has a "contact" without "enabled"
   bool self = false;        ///< contact of a body with itself too
   double tolerance = 1e-6;  ///< > 0 [m]
   FrictionCombine friction_combine = FrictionCombine::max;
+  ContactSolver solver = ContactSolver::newton;
   Location location;
 };
 

@@ -159,9 +159,9 @@ const std::string& scene_schema() {
     "joint": {
       "oneOf": [
         {
-          "type": "object", "required": ["type", "a", "b"], "additionalProperties": false,
+          "type": "object", "required": ["type", "a"], "additionalProperties": false,
           "properties": {
-            "type": {"description": "A point of one body stays on a point of another.", "const": "point"},
+            "type": {"description": "A point of one body stays on a point of another; without \"b\" it stays where it is in the world.", "const": "point"},
             "a": {"$ref": "#/$defs/joint_point"},
             "b": {"$ref": "#/$defs/joint_point"},
             "tolerance": {"$ref": "#/$defs/joint_tolerance"}
@@ -197,7 +197,8 @@ const std::string& scene_schema() {
         "enabled": {"description": "Whether contact is computed; default true.", "type": "boolean"},
         "self": {"description": "Also contact of a body with itself; default false.", "type": "boolean"},
         "tolerance": {"description": "Error allowed in the gaps [m]; default 1e-6.", "type": "number", "exclusiveMinimum": 0},
-        "friction_combine": {"description": "Coefficient between two surfaces from theirs; default max.", "enum": ["max", "min", "average", "multiply"]}
+        "friction_combine": {"description": "Coefficient between two surfaces from theirs; default max.", "enum": ["max", "min", "average", "multiply"]},
+        "solver": {"description": "How the contact forces are found; default newton.", "enum": ["newton", "nsgs", "staggered"]}
       }
     },
     "output": {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "support/models.hpp"
 
 #include <map>
@@ -13,16 +13,23 @@ class MemorySource : public bem::ModelSource {
   void add(const std::string& name, bem::BodyModel model) {
     models_[name] = std::make_shared<bem::BodyModel>(std::move(model));
   }
+  void add_obstacle(const std::string& name, bem::TriangleMesh mesh) {
+    obstacles_[name] = std::move(mesh);
+  }
   std::shared_ptr<const bem::BodyModel> model(const bem::FilePath& archive) override {
     return models_.at(archive.resolved);
   }
   bem::TractionData tractions(const bem::FilePath& archive,
-                              const std::vector<int>& unknowns) override {
-    return bem::extract_tractions(*models_.at(archive.resolved), unknowns);
+                              const std::vector<int>& nodes) override {
+    return bem::extract_tractions(*models_.at(archive.resolved), nodes);
+  }
+  bem::TriangleMesh obstacle(const bem::FilePath& mesh) override {
+    return obstacles_.at(mesh.resolved);
   }
 
  private:
   std::map<std::string, std::shared_ptr<const bem::BodyModel>> models_;
+  std::map<std::string, bem::TriangleMesh> obstacles_;
 };
 
 /// A scene with one body "b" of archive "b".

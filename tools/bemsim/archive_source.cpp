@@ -31,9 +31,13 @@ std::shared_ptr<const BodyModel> ArchiveSource::model(const FilePath& path) {
   });
 }
 
-TractionData ArchiveSource::tractions(const FilePath& path, const std::vector<int>& unknowns) {
+TractionData ArchiveSource::tractions(const FilePath& path, const std::vector<int>& nodes) {
   const Archive& archive = open(path);
-  return at_place(path, [&] { return archive.load_tractions(unknowns, progress_); });
+  return at_place(path, [&] { return archive.load_tractions(nodes, progress_); });
+}
+
+TriangleMesh ArchiveSource::obstacle(const FilePath& path) {
+  return at_place(path, [&] { return read_obstacle_mesh(path.resolved); });
 }
 
 }  // namespace bem

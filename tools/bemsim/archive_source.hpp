@@ -1,7 +1,7 @@
 #pragma once
 
 #include "archive/archive_reader.hpp"
-#include "dynamics/simulation.hpp"
+#include "simulation/simulation.hpp"
 
 #include <map>
 #include <memory>
@@ -20,7 +20,8 @@ class ArchiveSource : public ModelSource {
   const Archive& open(const FilePath& path);
 
   std::shared_ptr<const BodyModel> model(const FilePath& path) override;
-  TractionData tractions(const FilePath& path, const std::vector<int>& unknowns) override;
+  TractionData tractions(const FilePath& path, const std::vector<int>& nodes) override;
+  TriangleMesh obstacle(const FilePath& path) override;
 
  private:
   Progress progress_;

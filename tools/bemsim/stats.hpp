@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/measure.hpp"
-#include "dynamics/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "plan.hpp"
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,27 +1,29 @@
 #pragma once
 
-#include "dynamics/body.hpp"
+#include "contact/collision_scene.hpp"
 
-#include <functional>
+#include <optional>
 
 namespace bem {
 
 /// CPU-independent wall-clock seconds per phase, summed over all steps.
 struct PhaseTimes {
-  double unconstrained = 0;  ///< products with the history
-  double collision = 0;
-  double constraints = 0;  ///< frame, loads, fixed vertices and handles
-  double correction = 0;   ///< displacements of the new step, history
+  double unconstrained = 0;  ///< products with the history, motion without contact
+  double collision = 0;      ///< detection
+  double constraints = 0;    ///< frame, loads, joints and contacts
+  double correction = 0;     ///< displacements of the new step, history
 };
 
-/// Loads what a scene needs of an archive.
+/// Loads what a scene needs of its files.
 class ModelSource {
  public:
   virtual ~ModelSource() = default;
   /// The model with the matrices of free motion, for an archive path as resolved in the scene.
   virtual std::shared_ptr<const BodyModel> model(const FilePath& archive) = 0;
-  /// Traction columns of some unknowns, ascending.
-  virtual TractionData tractions(const FilePath& archive, const std::vector<int>& unknowns) = 0;
+  /// Traction columns of some nodes, ascending.
+  virtual TractionData tractions(const FilePath& archive, const std::vector<int>& nodes) = 0;
+  /// The mesh of an obstacle: welded triangles, open or closed.
+  virtual TriangleMesh obstacle(const FilePath& mesh) = 0;
 };
 
 /// A scene in motion. Bit-identical for any number of threads.
@@ -29,6 +31,8 @@ class Simulation {
  public:
   /// Loads every archive once. Throws ErrorCode::archive if one does not fit the scene.
   Simulation(const Scene& scene, ModelSource& source);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   void step();
   double time() const { return static_cast<double>(steps_) * scene_.time_step; }
@@ -36,14 +40,30 @@ class Simulation {
   const std::vector<Body>& bodies() const { return bodies_; }
   const PhaseTimes& times() const { return times_; }
   const Scene& scene() const { return scene_; }
+  /// Of the last step.
+  const ConstraintStatistics& statistics() const { return statistics_; }
+  /// Contacts of the last step and the world forces on their sides a [N].
+  const std::vector<ContactPair>& contacts() const { return contacts_; }
+  const std::vector<Vec3>& contact_forces() const { return constraints_->contact_forces(); }
 
   /// Bytes of the matrices in memory, and how many archives they come from.
   std::size_t matrix_bytes() const { return matrix_bytes_; }
   std::size_t archives() const { return archives_; }
 
  private:
+  void load(ModelSource& source);
+  std::vector<int> touched_nodes(const std::vector<int>& users, const BodyModel& model) const;
+  void begin_step();
+  void collide();
+
   Scene scene_;
+  JointPlan plan_;
   std::vector<Body> bodies_;
+  std::vector<std::vector<int>> sharing_;  ///< deformable bodies by archive
+  std::optional<ConstraintSolver> constraints_;
+  std::optional<CollisionScene> collisions_;
+  std::vector<ContactPair> contacts_;
+  ConstraintStatistics statistics_;
   PhaseTimes times_;
   long steps_ = 0;
   std::size_t matrix_bytes_ = 0, archives_ = 0;

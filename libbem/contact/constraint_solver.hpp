@@ -1,0 +1,84 @@
+#pragma once
+
+#include "contact/contact.hpp"
+#include "contact/friction_solver.hpp"
+#include "contact/mechanism.hpp"
+
+#include <map>
+
+namespace bem {
+
+/// A contact of the current step between surfaces; surface b of an obstacle has no body.
+struct ContactPair {
+  Contact contact;
+  int body_a = -1, body_b = -1;    ///< -1: an obstacle
+  Vec3 obstacle_a = Vec3::Zero();  ///< place of a point of an obstacle at the end of the step [m]
+  Vec3 obstacle_b = Vec3::Zero();
+  double friction = 0;
+};
+
+/// How well the constraints of a step were met.
+struct ConstraintStatistics {
+  int contacts = 0;
+  int iterations = 0;         ///< of the outer iteration for the rotations
+  double joint_residual = 0;  ///< largest distance of a joint's points, per axis [m]
+  int sweeps = 0;             ///< Gauss-Seidel sweeps of the contact solver, all calls
+  int newton_steps = 0;
+  double contact_error = 0;     ///< of the last contact solve, relative
+  double complementarity = 0;
+  double penetration = 0;       ///< left at the contacts [m]
+  bool converged = true;
+};
+
+struct ConstraintOptions {
+  double contact_tolerance = 1e-6;  ///< error of the contacts' displacements [m]
+  FrictionMethod method = FrictionMethod::newton;
+};
+
+/// All forces of a step that are not prescribed, solved together: joints at every stage, contact
+/// with friction by one force per step. The linear problem is the dense compliance of the nodes
+/// concerned; joints are eliminated from it, which leaves one contact problem for all bodies. An
+/// outer iteration takes care of the rotations.
+class ConstraintSolver {
+ public:
+  ConstraintSolver(const JointPlan& plan, std::vector<Body>& bodies,
+                   const ConstraintOptions& options);
+
+  /// Chooses the joints that hold in the step from t to t + dt [s].
+  void begin_step(double t, double dt);
+  bool is_held(int body) const { return mechanisms_[mechanism_of_[body]].is_held(); }
+
+  /// Finds the forces under which the bodies, which begin_step() must have started, meet all joints
+  /// and the given contacts, and leaves the bodies updated. Starts from the forces of the last call
+  /// for joints and for contacts with the same key.
+  ConstraintStatistics solve(const std::vector<ContactPair>& contacts);
+
+  /// World forces on side a of the contacts of the last call [N].
+  const std::vector<Vec3>& contact_forces() const { return forces_; }
+
+ private:
+  struct Problem;
+  void place_contacts(const std::vector<ContactPair>& contacts);
+  void build(Problem& p);
+  double update();
+  Eigen::VectorXd contact_displacements() const;
+  std::vector<Eigen::VectorXd> joint_gaps() const;
+  void apply_contact_forces();
+  Eigen::VectorXd solve_contacts(Problem& p, const std::vector<Eigen::VectorXd>& joint_changes,
+                                 const Eigen::VectorXd& u, ConstraintStatistics& statistics);
+  double joint_tolerance(const Mechanism& m) const;
+
+  std::vector<Body>* bodies_;
+  ConstraintOptions options_;
+  std::vector<Mechanism> mechanisms_;
+  std::vector<int> mechanism_of_;  ///< by body
+  double start_ = 0, dt_ = 0;
+
+  std::vector<ContactPair> contacts_;
+  std::vector<Mat3> frames_;              ///< columns: normal and two tangents
+  std::vector<std::vector<Port>> ports_;  ///< by body
+  std::vector<Vec3> forces_;
+  std::map<ContactKey, Vec3> known_forces_;
+};
+
+}  // namespace bem

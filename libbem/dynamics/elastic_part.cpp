@@ -1,0 +1,235 @@
+#include "dynamics/elastic_part.hpp"
+
+#include <algorithm>
+
+namespace bem {
+namespace {
+
+/// [1, -[x]_x]: displacement of x by a translation and a rotation, stacked for some nodes.
+Eigen::MatrixXd rigid_columns(const std::vector<Vec3>& x, const std::vector<int>& nodes) {
+  Eigen::MatrixXd m(3 * nodes.size(), 6);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    m.block<3, 3>(static_cast<Eigen::Index>(3 * i), 0) = Mat3::Identity();
+    m.block<3, 3>(static_cast<Eigen::Index>(3 * i), 3) = -cross_matrix(x[nodes[i]]);
+  }
+  return m;
+}
+
+std::vector<int> slots_of(const NodalTractions& tractions, const std::vector<int>& nodes) {
+  std::vector<int> slots;
+  slots.reserve(nodes.size());
+  for (int node : nodes) slots.push_back(tractions.slot(node));
+  return slots;
+}
+
+}  // namespace
+
+ElasticPart::ElasticPart(const ElasticSystem& system, const NodalTractions* tractions,
+                         std::vector<int> joint_nodes)
+    : system_(system),
+      tractions_(tractions),
+      areas_(vertex_areas(system.model().geometry.nodes)),
+      joint_nodes_(std::move(joint_nodes)),
+      offset_(system.scheme(), system.model().discretisation.dt) {
+  const auto n = static_cast<Eigen::Index>(3 * system.model().nodes());
+  displacement_history_ = system.make_history(n);
+  acceleration_history_ = system.make_history(6);
+  traction_history_ = NodalHistory(system.scheme(), system.model().discretisation.history_length,
+                                   system.model().window);
+}
+
+Eigen::MatrixXd ElasticPart::history_sums(const std::vector<PrescribedLoad>& loads) const {
+  Eigen::MatrixXd sums =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * system_.model().nodes()),
+                            static_cast<Eigen::Index>(system_.model().components()));
+  system_.add_input_history(system_.body_force(), acceleration_history_, sums);
+  for (const PrescribedLoad& p : loads)
+    system_.add_input_history(p.load.columns(), p.history, sums);
+  if (tractions_) tractions_->add_history(traction_history_, sums);
+  return sums;
+}
+
+void ElasticPart::begin_step(SpectralState free, double leak) {
+  free_ = std::move(free);
+  const bool other_gain = leak != leak_;
+  if (other_gain) offset_.set_leak(leak_ = leak);
+  if (!joint_nodes_.empty() && (joint_joint_.empty() || other_gain)) {
+    joint_joint_.clear();
+    for (int a = 0; a < system_.scheme().stages(); ++a)
+      for (int b = 0; b < system_.scheme().stages(); ++b)
+        joint_joint_.push_back(response(joint_nodes_, a, joint_nodes_, pattern(Group::joint, b)));
+  }
+  if (other_gain) compliance_nodes_.clear();
+  contact_nodes_.clear();
+}
+
+void ElasticPart::set_contact_nodes(const std::vector<int>& nodes) {
+  contact_nodes_ = nodes;
+  if (nodes == compliance_nodes_ || nodes.empty()) return;
+  compliance_nodes_ = nodes;
+  const int stages = system_.scheme().stages(), last = stages - 1;
+  const StageVector constant = pattern(Group::contact, 0);
+  contact_contact_ = response(nodes, last, nodes, constant);
+  joint_contact_.clear();
+  contact_joint_.clear();
+  for (int a = 0; a < stages && !joint_nodes_.empty(); ++a) {
+    joint_contact_.push_back(response(joint_nodes_, a, nodes, constant));
+    contact_joint_.push_back(response(nodes, last, joint_nodes_, pattern(Group::joint, a)));
+  }
+}
+
+/// How a unit force is spread over the stages.
+StageVector ElasticPart::pattern(Group group, int stage) const {
+  const int stages = system_.scheme().stages();
+  if (group == Group::contact) return StageVector::Ones(stages);
+  return StageVector::Unit(stages, stage);
+}
+
+/// Displacement of some nodes at a stage by unit forces on others: deformation, and the offset from
+/// the frame that it causes.
+Eigen::MatrixXd ElasticPart::response(const std::vector<int>& rows, int row_stage,
+                                      const std::vector<int>& columns,
+                                      const StageVector& pattern) const {
+  const auto& initial = system_.scheme().initial_components();
+  const std::vector<int> slots = slots_of(*tractions_, columns);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * rows.size(), 3 * columns.size());
+  Eigen::MatrixXd offset = Eigen::MatrixXd::Zero(6, out.cols());
+  for (std::size_t c = 0; c < initial.size(); ++c) {
+    const Complex factor =
+        initial[c].multiplicity() * (initial[c].right.transpose() * pattern.cast<Complex>()).value();
+    out += (initial[c].left[row_stage] * factor *
+            tractions_->response(static_cast<int>(c), rows, slots))
+               .real();
+    const Eigen::MatrixXcd z = tractions_->acceleration(static_cast<int>(c), slots);
+    for (int k = 0; k < pattern.size(); ++k)
+      offset -= offset_.gain()(row_stage, k) * (initial[c].left[k] * factor * z).real();
+  }
+  offset -= (offset_.gain().row(row_stage) * pattern).value() *
+            tractions_->balanced_acceleration(slots);
+  out.noalias() += rigid_columns(system_.model().geometry.nodes.vertices, rows) * offset;
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    out.middleCols<3>(static_cast<Eigen::Index>(3 * j)) /= areas_[columns[j]];
+  return out;
+}
+
+Eigen::MatrixXd ElasticPart::compliance(Group rows, int row_stage, Group columns,
+                                        int load_stage) const {
+  const int stages = system_.scheme().stages();
+  if (rows == Group::joint && columns == Group::joint)
+    return joint_joint_[row_stage * stages + load_stage];
+  if (rows == Group::joint) return joint_contact_[row_stage];
+  if (columns == Group::joint) return contact_joint_[load_stage];
+  return contact_contact_;
+}
+
+ElasticPart::Displacements ElasticPart::displacements(const std::vector<PrescribedLoad>& loads,
+                                                      const NodalForces& forces) const {
+  const Scheme& scheme = system_.scheme();
+  const auto& initial = scheme.initial_components();
+  const int stages = scheme.stages();
+  const std::vector<Vec3>& x = system_.model().geometry.nodes.vertices;
+  // without the forces: free motion and prescribed loads
+  SpectralState state;
+  state.acceleration = free_.acceleration;
+  for (std::size_t c = 0; c < initial.size(); ++c)
+    for (const PrescribedLoad& p : loads)
+      state.acceleration[c] +=
+          p.load.columns().acceleration[c] * (p.stages.cast<Complex>() * initial[c].right);
+  const Eigen::MatrixXd offsets = offset_.stages(differences(state, loads, {}));
+  const auto at = [&](const std::vector<int>& nodes, int stage) {
+    const std::vector<int> rows = unknowns_of(nodes);
+    Eigen::VectorXd u = rigid_columns(x, nodes) * offsets.col(stage);
+    for (std::size_t c = 0; c < initial.size(); ++c) {
+      Eigen::VectorXcd v = free_.displacement[c](rows);
+      for (const PrescribedLoad& p : loads)
+        v += p.load.columns().displacement[c](rows, Eigen::all) *
+             (p.stages.cast<Complex>() * initial[c].right);
+      u += initial[c].multiplicity() * (initial[c].left[stage] * v).real();
+    }
+    return u;
+  };
+  Displacements out;
+  out.joint.resize(static_cast<Eigen::Index>(3 * joint_nodes_.size()), stages);
+  for (int a = 0; a < stages && !joint_nodes_.empty(); ++a) {
+    out.joint.col(a) = at(joint_nodes_, a);
+    for (int b = 0; b < stages; ++b)
+      out.joint.col(a).noalias() += joint_joint_[a * stages + b] * forces.joint.col(b);
+    if (!contact_nodes_.empty()) out.joint.col(a).noalias() += joint_contact_[a] * forces.contact;
+  }
+  if (contact_nodes_.empty()) return out;
+  out.contact = at(contact_nodes_, stages - 1);
+  out.contact.noalias() += contact_contact_ * forces.contact;
+  for (int b = 0; b < stages && !joint_nodes_.empty(); ++b)
+    out.contact.noalias() += contact_joint_[b] * forces.joint.col(b);
+  return out;
+}
+
+/// Forces as tractions of the nodes that carry any, ascending.
+NodalLoad ElasticPart::nodal_load(const NodalForces& forces) const {
+  const int stages = system_.scheme().stages();
+  NodalLoad load;
+  std::vector<int> nodes;
+  std::merge(joint_nodes_.begin(), joint_nodes_.end(), contact_nodes_.begin(),
+             contact_nodes_.end(), std::back_inserter(nodes));
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  load.stages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * nodes.size()), stages);
+  const auto add = [&](const std::vector<int>& group, const Eigen::MatrixXd& values) {
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const auto place = std::lower_bound(nodes.begin(), nodes.end(), group[i]) - nodes.begin();
+      load.stages.middleRows<3>(3 * place) +=
+          values.middleRows<3>(static_cast<Eigen::Index>(3 * i)) / areas_[group[i]];
+    }
+  };
+  add(joint_nodes_, forces.joint);
+  add(contact_nodes_, forces.contact.replicate(1, stages));
+  if (!nodes.empty()) load.slots = slots_of(*tractions_, nodes);
+  return load;
+}
+
+/// By how much the frame of the elastic solution accelerates beyond the balanced value (6 x s).
+Eigen::MatrixXd ElasticPart::differences(const SpectralState& state,
+                                         const std::vector<PrescribedLoad>& loads,
+                                         const NodalLoad& nodal) const {
+  Eigen::MatrixXd e = system_.acceleration_stages(state);
+  for (const PrescribedLoad& p : loads) system_.subtract_balance(p.load.columns(), p.stages, e);
+  if (tractions_) tractions_->subtract_balance(nodal, e);
+  return e;
+}
+
+Eigen::VectorXd ElasticPart::end_displacement(const std::vector<PrescribedLoad>& loads,
+                                              const NodalForces& forces) {
+  SpectralState state = free_;
+  for (const PrescribedLoad& p : loads) system_.add_inputs(p.load.columns(), p.stages, state);
+  end_.load = nodal_load(forces);
+  if (tractions_) tractions_->add(end_.load, state);
+  end_.displacements = system_.displacement_stages(state);
+  end_.accelerations = system_.acceleration_stages(state);
+  end_.differences = differences(state, loads, end_.load);
+  const Eigen::Index last = end_.displacements.cols() - 1;
+  const Vector6 offset = offset_.stages(end_.differences).col(last);
+  Eigen::VectorXd u = end_.displacements.col(last);
+  const std::vector<Vec3>& x = system_.model().geometry.nodes.vertices;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    u.segment<3>(static_cast<Eigen::Index>(3 * i)) +=
+        offset.head<3>() + offset.tail<3>().cross(x[i]);
+  return u;
+}
+
+void ElasticPart::end_step() {
+  displacement_history_.push(end_.displacements);
+  acceleration_history_.push(end_.accelerations);
+  if (tractions_) traction_history_.push(end_.load);
+  offset_.advance(end_.differences);
+}
+
+void ElasticPart::add_nodal_tractions(const NodalForces& forces, Eigen::Matrix3Xd& tractions) const {
+  const auto add = [&](const std::vector<int>& nodes, const auto& values) {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      tractions.col(nodes[i]) +=
+          values.template segment<3>(static_cast<Eigen::Index>(3 * i)) / areas_[nodes[i]];
+  };
+  if (!joint_nodes_.empty()) add(joint_nodes_, forces.joint.col(forces.joint.cols() - 1));
+  if (!contact_nodes_.empty()) add(contact_nodes_, forces.contact);
+}
+
+}  // namespace bem

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "dynamics/frame_offset.hpp"
+#include "dynamics/surface_load.hpp"
+#include "model/nodal_tractions.hpp"
+
+#include <memory>
+
+namespace bem {
+
+/// A prescribed load of a body with its past.
+struct PrescribedLoad {
+  SurfaceLoad load;
+  LagHistory history;
+  Eigen::MatrixXd stages;  ///< inputs x s of the current step
+};
+
+/// Forces on single nodes of a body during a step, in its axes.
+struct NodalForces {
+  Eigen::MatrixXd joint;    ///< on the joint nodes, 3 per node, stage by stage [N]
+  Eigen::VectorXd contact;  ///< on the contact nodes, constant over the step [N]
+};
+
+/// The deformation of one body: displacements in its frame, free of rigid motion but for the frame
+/// offset, under prescribed loads and forces on single nodes.
+///
+/// The joint nodes (fixed vertices, handles, joints) are chosen once; forces act on them at every
+/// stage. The contact nodes change from step to step; theirs are constant over a step, and their
+/// displacements are of interest at its end only.
+class ElasticPart {
+ public:
+  /// `tractions` may be null if nothing ever touches the body.
+  ElasticPart(const ElasticSystem& system, const NodalTractions* tractions,
+              std::vector<int> joint_nodes);
+
+  const LagHistory& displacement_history() const { return displacement_history_; }
+  /// What the history of everything but the displacements contributes: 3N x components.
+  Eigen::MatrixXd history_sums(const std::vector<PrescribedLoad>& loads) const;
+  /// Starts a step, without contact nodes, from the displacements without new loads. `leak`: of the
+  /// frame offset [1/s].
+  void begin_step(SpectralState free, double leak);
+  void set_contact_nodes(const std::vector<int>& nodes);
+
+  /// Displacements [m] of the joint nodes at the stages (3 per node x s), and of the contact nodes
+  /// at the end of the step.
+  struct Displacements {
+    Eigen::MatrixXd joint;
+    Eigen::VectorXd contact;
+  };
+  Displacements displacements(const std::vector<PrescribedLoad>& loads,
+                              const NodalForces& forces) const;
+
+  enum class Group { joint, contact };
+  /// d(displacement at `row_stage`)/d(force of stage `load_stage`) between groups of nodes [m/N].
+  /// Forces on contact nodes act at all stages: `load_stage` is ignored for them.
+  Eigen::MatrixXd compliance(Group rows, int row_stage, Group columns, int load_stage) const;
+
+  /// All displacements at the end of the step, 3 per node [m].
+  Eigen::VectorXd end_displacement(const std::vector<PrescribedLoad>& loads,
+                                   const NodalForces& forces);
+  /// Makes the motion last computed by end_displacement() part of the history.
+  void end_step();
+
+  /// Nodal tractions of forces at the end of the step are added [Pa, body axes].
+  void add_nodal_tractions(const NodalForces& forces, Eigen::Matrix3Xd& tractions) const;
+
+ private:
+  NodalLoad nodal_load(const NodalForces& forces) const;
+  Eigen::MatrixXd differences(const SpectralState& state, const std::vector<PrescribedLoad>& loads,
+                              const NodalLoad& nodal) const;
+  Eigen::MatrixXd response(const std::vector<int>& rows, int row_stage,
+                           const std::vector<int>& columns, const StageVector& pattern) const;
+  StageVector pattern(Group group, int stage) const;
+  const std::vector<int>& nodes(Group group) const {
+    return group == Group::joint ? joint_nodes_ : contact_nodes_;
+  }
+
+  const ElasticSystem& system_;
+  const NodalTractions* tractions_;
+  std::vector<double> areas_;  ///< int phi_i, all nodes
+  std::vector<int> joint_nodes_, contact_nodes_;
+  FrameOffset offset_;
+  double leak_ = 0;
+  LagHistory displacement_history_, acceleration_history_;
+  NodalHistory traction_history_;
+  SpectralState free_;
+  /// Compliances that displacements() needs; those among joint nodes last for the whole run.
+  std::vector<Eigen::MatrixXd> joint_joint_, joint_contact_, contact_joint_;
+  Eigen::MatrixXd contact_contact_;
+  std::vector<int> compliance_nodes_;  ///< that the compliances of contact nodes belong to
+  /// The step as last computed by end_displacement().
+  struct End {
+    NodalLoad load;
+    Eigen::MatrixXd displacements, accelerations, differences;
+  } end_;
+};
+
+}  // namespace bem

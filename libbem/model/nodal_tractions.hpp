@@ -1,0 +1,84 @@
+#pragma once
+
+#include "model/elastic_system.hpp"
+
+namespace bem {
+
+/// The columns of the traction matrices that belong to some nodes.
+struct TractionData {
+  std::vector<int> nodes;                           ///< ascending
+  std::vector<std::unique_ptr<StoredMatrix>> lags;  ///< of G_k, lag >= 1: 3N x 3 nodes
+  std::vector<SpectralMatrix> response;             ///< of H_0^{-1} G_0 by initial component
+};
+
+/// Picks columns of a model whose traction matrices are in memory.
+TractionData extract_tractions(const BodyModel& model, const std::vector<int>& nodes);
+
+/// Tractions at some of the nodes of a TractionData during a step.
+struct NodalLoad {
+  std::vector<int> slots;  ///< positions in TractionData::nodes, ascending
+  Eigen::MatrixXd stages;  ///< 3 slots.size() x s [Pa, body axes]
+};
+
+/// Past nodal loads. Few nodes carry any, so every lag keeps its own list.
+class NodalHistory {
+ public:
+  NodalHistory() = default;
+  NodalHistory(const Scheme& scheme, int history_length, double window);
+
+  /// Makes `load` that of lag 1; older ones move on by one lag.
+  void push(const NodalLoad& load);
+
+  struct Lag {
+    std::vector<int> columns;  ///< 3 slot + axis
+    Eigen::MatrixXd inputs;    ///< columns.size() x components
+  };
+  const Lag& lag(int k) const { return ring_[(newest_ + k - 1) % ring_.size()]; }
+  int length() const { return static_cast<int>(ring_.size()); }
+
+ private:
+  Eigen::MatrixXd right_;  ///< s x components
+  double window_ = 1;
+  std::vector<Lag> ring_;
+  std::size_t newest_ = 0;
+};
+
+/// The effect of tractions at single nodes on a body: constraints act through them.
+class NodalTractions {
+ public:
+  NodalTractions(const ElasticSystem& system, TractionData data);
+
+  const std::vector<int>& nodes() const { return data_.nodes; }
+  /// Position of a node in nodes(), which must hold it.
+  int slot(int node) const;
+  std::size_t bytes() const;
+
+  /// component_sums (3N x components) += sum_k G_k p_{n-k}. Reads the columns of loaded nodes.
+  void add_history(const NodalHistory& history, Eigen::MatrixXd& component_sums) const;
+
+  /// Adds the effect of a load at the current step. Reads the columns of loaded nodes.
+  void add(const NodalLoad& load, SpectralState& state) const;
+
+  /// Subtracts the balanced value of (a', alpha) under a load (6 x s).
+  void subtract_balance(const NodalLoad& load, Eigen::MatrixXd& accelerations) const;
+
+  /// Displacement without rigid part of some nodes by unit tractions at some slots, by initial
+  /// component: 3 rows.size() x 3 slots.size() [m/Pa].
+  Eigen::MatrixXcd response(int component, const std::vector<int>& rows,
+                            const std::vector<int>& slots) const;
+  /// The frame accelerations z of unit tractions (6 x 3 slots.size()), and the balanced ones.
+  Eigen::MatrixXcd acceleration(int component, const std::vector<int>& slots) const;
+  Eigen::MatrixXd balanced_acceleration(const std::vector<int>& slots) const;
+
+ private:
+  const ElasticSystem& system_;
+  TractionData data_;
+  std::vector<int> slot_of_node_;
+  std::vector<Eigen::MatrixXcd> acceleration_;  ///< z, 6 x 3 nodes, by initial component
+  Eigen::MatrixXd balanced_;                    ///< 6 x 3 nodes
+};
+
+/// The unknowns 3*i + axis of some nodes or slots.
+std::vector<int> unknowns_of(const std::vector<int>& nodes);
+
+}  // namespace bem

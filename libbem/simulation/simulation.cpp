@@ -1,0 +1,206 @@
+#include "simulation/simulation.hpp"
+
+#include "base/error.hpp"
+#include "mesh/describe.hpp"
+#include "scene/location.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace bem {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::size_t bytes_of(const BodyModel& m) {
+  std::size_t bytes = 0;
+  for (const auto& h : m.h) bytes += h->bytes();
+  for (const SpectralMatrix& s : m.inverse)
+    bytes += s.real->bytes() + (s.imaginary ? s.imaginary->bytes() : 0);
+  return bytes;
+}
+
+/// A rigid body moves by any scheme; it takes that of the bodies around it.
+std::shared_ptr<const BodyModel> rigid_with_scheme(const BodyModel& model, const Scheme& scheme) {
+  auto out = std::make_shared<BodyModel>();
+  out->kind = ModelKind::rigid;
+  out->geometry = model.geometry;
+  out->discretisation = model.discretisation;
+  out->discretisation.scheme = scheme;
+  return out;
+}
+
+FrictionMethod friction_method(ContactSolver solver) {
+  switch (solver) {
+    case ContactSolver::staggered:
+      return FrictionMethod::staggered;
+    case ContactSolver::nsgs:
+      return FrictionMethod::nsgs;
+    case ContactSolver::newton:
+      break;
+  }
+  return FrictionMethod::newton;
+}
+
+/// The scheme of the scene's deformable bodies, which rigid bodies follow.
+Scheme common_scheme(const std::map<std::string, SharedModel>& models) {
+  for (const auto& [path, shared] : models)
+    if (shared.model->kind == ModelKind::dynamic) return shared.model->discretisation.scheme;
+  return Scheme::radau2();
+}
+
+}  // namespace
+
+void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
+  if (std::abs(dt - scene.time_step) <= 1e-9 * dt) return;
+  throw Error(ErrorCode::archive,
+              where(body.archive.location) + ": the archive " + in_quotes(body.archive.written) +
+                  " was made for the time step " + to_text(dt) + " s, the scene has " +
+                  to_text(scene.time_step) + " s (" + where(scene.time_step_location) +
+                  "); make the archive again with --dt " + to_text(scene.time_step) +
+                  ", or change the scene");
+}
+
+long step_count(double duration, double time_step) {
+  return std::lround(duration / time_step);
+}
+
+Simulation::Simulation(const Scene& scene, ModelSource& source) : scene_(scene) {
+  load(source);
+  ConstraintOptions options;
+  options.contact_tolerance = scene_.contact.tolerance;
+  options.method = friction_method(scene_.contact.solver);
+  constraints_.emplace(plan_, bodies_, options);
+  if (!scene_.contact.enabled) return;
+  std::vector<ObstacleMesh> obstacles;
+  for (const ObstacleSpec& o : scene_.obstacles)
+    if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape))
+      obstacles.push_back({&o, source.obstacle(mesh->mesh)});
+  std::vector<std::pair<int, int>> joined;
+  for (const JointSpec& j : scene_.joints)
+    if (j.b) joined.emplace_back(static_cast<int>(j.a.body), static_cast<int>(j.b->body));
+  collisions_.emplace(scene_, bodies_, std::move(obstacles), joined);
+}
+
+void Simulation::load(ModelSource& source) {
+  std::map<std::string, std::vector<int>> by_archive;
+  for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+    by_archive[scene_.bodies[b].archive.resolved].push_back(static_cast<int>(b));
+  std::map<std::string, SharedModel> models;
+  std::vector<const BodyGeometry*> geometries(scene_.bodies.size());
+  for (const auto& [path, users] : by_archive) {
+    SharedModel& s = models[path];
+    s.model = source.model(scene_.bodies[users[0]].archive);
+    ++archives_;
+    for (int b : users) {
+      geometries[b] = &s.model->geometry;
+      if (s.model->kind == ModelKind::dynamic)
+        check_time_step(scene_, scene_.bodies[b], s.model->discretisation.dt);
+    }
+  }
+  plan_ = plan_joints(scene_, geometries);
+  const Scheme scheme = common_scheme(models);
+  for (const auto& [path, users] : by_archive) {
+    SharedModel& s = models[path];
+    if (s.model->kind == ModelKind::rigid) {
+      s.model = rigid_with_scheme(*s.model, scheme);
+      continue;
+    }
+    sharing_.push_back(users);
+    s.system = std::make_shared<ElasticSystem>(*s.model);
+    matrix_bytes_ += bytes_of(*s.model);
+    const std::vector<int> nodes = touched_nodes(users, *s.model);
+    if (!nodes.empty()) {
+      s.tractions = std::make_shared<NodalTractions>(
+          *s.system, source.tractions(scene_.bodies[users[0]].archive, nodes));
+      matrix_bytes_ += s.tractions->bytes();
+    }
+    if (std::any_of(users.begin(), users.end(),
+                    [&](int b) { return !scene_.bodies[b].tractions.empty(); }))
+      s.assembler = std::make_shared<RowAssembler>(
+          s.model->geometry.nodes, s.model->geometry.extent, s.model->discretisation);
+  }
+  bodies_.reserve(scene_.bodies.size());
+  for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+    bodies_.emplace_back(scene_.bodies[b], models[scene_.bodies[b].archive.resolved],
+                         scene_.time_step, scene_.gravity, plan_.nodes[b]);
+}
+
+/// Nodes that joints or contacts may act on, of bodies that share a model.
+std::vector<int> Simulation::touched_nodes(const std::vector<int>& users,
+                                           const BodyModel& model) const {
+  std::vector<char> touched(model.nodes(), scene_.contact.enabled);
+  for (int b : users)
+    for (const JointNode& n : plan_.nodes[b]) touched[n.node] = 1;
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < touched.size(); ++i)
+    if (touched[i]) nodes.push_back(static_cast<int>(i));
+  return nodes;
+}
+
+/// The motion without new forces: products with the history, once for bodies of the same archive.
+void Simulation::begin_step() {
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (bodies_[b].is_rigid()) bodies_[b].begin_step({}, constraints_->is_held(static_cast<int>(b)));
+  for (const std::vector<int>& group : sharing_) {
+    std::vector<const LagHistory*> histories;
+    std::vector<Eigen::MatrixXd> sums;
+    for (int b : group) {
+      histories.push_back(&bodies_[b].displacement_history());
+      sums.push_back(bodies_[b].history_sums());
+    }
+    const ElasticSystem& system = bodies_[group[0]].system();
+    system.subtract_displacement_history(histories, sums);
+    std::vector<SpectralState> states = system.solve(sums);
+    for (std::size_t i = 0; i < group.size(); ++i)
+      bodies_[group[i]].begin_step(std::move(states[i]), constraints_->is_held(group[i]));
+  }
+}
+
+/// Adds contacts until the motion that they lead to has no others.
+void Simulation::collide() {
+  constexpr int kMostPasses = 6;
+  std::set<ContactKey> known;
+  contacts_.clear();
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const double start = now();
+    bool fresh = false;
+    for (ContactPair& pair : collisions_->detect(bodies_)) {
+      if (!known.insert(pair.contact.key).second) continue;
+      contacts_.push_back(std::move(pair));
+      fresh = true;
+    }
+    const double solve = now();
+    times_.collision += solve - start;
+    if (!fresh) break;
+    const ConstraintStatistics last = statistics_;
+    statistics_ = constraints_->solve(contacts_);
+    statistics_.iterations += last.iterations;
+    statistics_.sweeps += last.sweeps;
+    statistics_.newton_steps += last.newton_steps;
+    times_.constraints += now() - solve;
+  }
+}
+
+void Simulation::step() {
+  const double start = now();
+  constraints_->begin_step(time(), scene_.time_step);
+  if (collisions_) collisions_->begin_step(time(), scene_.time_step);
+  begin_step();
+  const double solve = now();
+  statistics_ = constraints_->solve({});
+  times_.unconstrained += solve - start;
+  times_.constraints += now() - solve;
+  if (collisions_) collide();
+  const double correct = now();
+  for (Body& body : bodies_) body.end_step();
+  times_.correction += now() - correct;
+  ++steps_;
+}
+
+}  // namespace bem
