@@ -24,15 +24,7 @@ struct CollisionPlane {
   Vec3 normal = Vec3::UnitZ();  ///< unit vector out of the half space
 };
 
-struct CollisionOptions {
-  /// Pairs that end the step closer than this are contacts, too, though nothing penetrates yet
-  /// [m]; keep it below half the thickness of the thinnest part.
-  double margin = 1e-3;
-  /// Penetration at the start of a step that counts as touching [m].
-  double tolerance = 1e-6;
-  /// Penetration at the start of a step that is still pushed out the way it came [m]; what is
-  /// deeper is left alone. Keep it below half the thickness of the thinnest part.
-  double recovery_depth = 1e-3;
+struct CollisionOptions : ContactLimits {
   /// Pairs of surfaces without contact, by index (planes follow the surfaces).
   std::vector<std::pair<int, int>> ignored_pairs;
 };

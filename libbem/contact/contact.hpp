@@ -44,6 +44,18 @@ struct ContactKey {
   bool operator!=(const ContactKey& other) const { return !(*this == other); }
 };
 
+/// Lengths that decide what is a contact [m].
+struct ContactLimits {
+  /// Pairs that end the step closer than this are contacts, too, though nothing penetrates yet;
+  /// keep it below half the thickness of the thinnest part.
+  double margin = 1e-3;
+  /// Penetration at the start of a step that counts as touching.
+  double tolerance = 1e-6;
+  /// Penetration at the start of a step that is still pushed out the shortest way; what is deeper
+  /// is left alone. Keep it below half the thickness of the thinnest part.
+  double recovery_depth = 1e-3;
+};
+
 /// Two material points that must not pass each other during a step: with end-of-step positions x
 ///
 ///     g(x) = normal . (a(x) - b(x)) >= 0,

@@ -10,14 +10,13 @@ struct Penetration {
   int vertex = -1;   ///< the deepest vertex, -1 if nothing penetrates
 };
 
-/// Deepest vertex of `vertices` inside the closed surface: distance to the surface of the vertices
-/// that are inside (winding number). For tests and statistics: O(n log m) outside the box of the
-/// surface, O(m) per vertex in it.
-Penetration deepest_penetration(const std::vector<Vec3>& vertices,
+/// Deepest of the `points` inside a closed surface: its distance to the nearest triangle, whose
+/// pseudonormal tells inside from outside. O((n + m) log m) for n points in the surface's box.
+Penetration deepest_penetration(const std::vector<Vec3>& points,
                                 const std::vector<Triangle>& triangles,
-                                const std::vector<Vec3>& surface_vertices);
+                                const std::vector<Vec3>& vertices);
 
-/// Deepest vertex below the plane. O(n).
-Penetration deepest_penetration(const std::vector<Vec3>& vertices, const CollisionPlane& plane);
+/// Deepest of the points below the plane. O(n).
+Penetration deepest_penetration(const std::vector<Vec3>& points, const CollisionPlane& plane);
 
 }  // namespace bem
