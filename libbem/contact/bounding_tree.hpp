@@ -1,0 +1,85 @@
+#pragma once
+
+#include "mesh/triangle_mesh.hpp"
+
+#include <vector>
+
+namespace bem {
+
+inline bool overlap(const BoundingBox& a, const BoundingBox& b) {
+  return a.min[0] <= b.max[0] && b.min[0] <= a.max[0] && a.min[1] <= b.max[1] &&
+         b.min[1] <= a.max[1] && a.min[2] <= b.max[2] && b.min[2] <= a.max[2];
+}
+
+inline void extend(BoundingBox& box, const BoundingBox& other) {
+  box.min = box.min.cwiseMin(other.min);
+  box.max = box.max.cwiseMax(other.max);
+}
+
+/// Binary tree of axis-aligned boxes over the triangles of a mesh, halved by the longest axis of
+/// the centroids. Built once; moving vertices refit the boxes and leave the tree as it is.
+class BoundingTree {
+ public:
+  struct Node {
+    BoundingBox box;
+    int begin, end;  ///< range in order()
+    int right;       ///< second child, the first follows its parent; -1 in a leaf
+
+    bool leaf() const { return right < 0; }
+  };
+
+  /// Boxes are those of the positions. O(n log n).
+  BoundingTree(const std::vector<Triangle>& triangles, const std::vector<Vec3>& positions);
+
+  /// New boxes from those of the vertices. O(n).
+  void refit(const std::vector<Triangle>& triangles, const std::vector<BoundingBox>& vertex_boxes);
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  /// Triangles in the order of the leaves, and their boxes.
+  const std::vector<int>& order() const { return order_; }
+  const std::vector<BoundingBox>& boxes() const { return boxes_; }
+
+ private:
+  int build(const std::vector<Vec3>& centroids, int begin, int end);
+
+  std::vector<Node> nodes_;
+  std::vector<int> order_;
+  std::vector<BoundingBox> boxes_;
+};
+
+/// Calls visit(s, t) for all triangles s below node p of `a` and t below node q of `b` whose boxes
+/// overlap, in a fixed order.
+template <typename Visit>
+void visit_overlaps(const BoundingTree& a, int p, const BoundingTree& b, int q, Visit& visit) {
+  const BoundingTree::Node& m = a.nodes()[p];
+  const BoundingTree::Node& n = b.nodes()[q];
+  if (!overlap(m.box, n.box)) return;
+  if (m.leaf() && n.leaf()) {
+    for (int i = m.begin; i < m.end; ++i)
+      for (int j = n.begin; j < n.end; ++j)
+        if (overlap(a.boxes()[i], b.boxes()[j])) visit(a.order()[i], b.order()[j]);
+  } else if (n.leaf() || (!m.leaf() && m.end - m.begin >= n.end - n.begin)) {
+    visit_overlaps(a, p + 1, b, q, visit);
+    visit_overlaps(a, m.right, b, q, visit);
+  } else {
+    visit_overlaps(a, p, b, q + 1, visit);
+    visit_overlaps(a, p, b, n.right, visit);
+  }
+}
+
+/// The same for the pairs of different triangles below node p of one tree, each pair once.
+template <typename Visit>
+void visit_self_overlaps(const BoundingTree& tree, int p, Visit& visit) {
+  const BoundingTree::Node& n = tree.nodes()[p];
+  if (n.leaf()) {
+    for (int i = n.begin; i < n.end; ++i)
+      for (int j = i + 1; j < n.end; ++j)
+        if (overlap(tree.boxes()[i], tree.boxes()[j])) visit(tree.order()[i], tree.order()[j]);
+  } else {
+    visit_self_overlaps(tree, p + 1, visit);
+    visit_self_overlaps(tree, n.right, visit);
+    visit_overlaps(tree, p + 1, tree, n.right, visit);
+  }
+}
+
+}  // namespace bem

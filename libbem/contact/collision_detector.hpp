@@ -1,0 +1,60 @@
+#pragma once
+
+#include "base/types.hpp"
+#include "contact/contact.hpp"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace bem {
+
+/// A triangle mesh that can be touched on its outer side, the one its normals point to. Closed or
+/// open; every edge has one or two triangles of consistent orientation.
+struct CollisionSurface {
+  std::vector<Triangle> triangles;
+  int vertex_count = 0;
+  bool prescribed = false;    ///< an obstacle: no contact with planes and other such surfaces
+  bool self_contact = false;  ///< contact of the surface with itself too
+};
+
+/// The half space below a plane that does not move.
+struct CollisionPlane {
+  Vec3 point = Vec3::Zero();    ///< [m]
+  Vec3 normal = Vec3::UnitZ();  ///< unit vector out of the half space
+};
+
+struct CollisionOptions : ContactLimits {
+  /// Pairs of surfaces without contact, by index (planes follow the surfaces).
+  std::vector<std::pair<int, int>> ignored_pairs;
+};
+
+/// Where the vertices of a surface are at the start and, as predicted, at the end of a step [m].
+struct SurfaceMotion {
+  const std::vector<Vec3>* start = nullptr;
+  const std::vector<Vec3>* end = nullptr;
+};
+
+/// Finds the contacts of a step among surfaces and with planes: pairs of features (vertex and
+/// triangle, edge and edge, vertex and plane) that touch at the start, hit each other on the way
+/// (vertices move on straight lines), or end within the margin. The method is in docs/method.md,
+/// "Collision detection". Contacts are sorted by key and bit-identical for any number of threads.
+class CollisionDetector {
+ public:
+  /// Throws ErrorCode::internal for meshes that are not as CollisionSurface says.
+  CollisionDetector(std::vector<CollisionSurface> surfaces, std::vector<CollisionPlane> planes,
+                    CollisionOptions options);
+  ~CollisionDetector();
+  CollisionDetector(CollisionDetector&&) noexcept;
+  CollisionDetector& operator=(CollisionDetector&&) noexcept;
+
+  /// One motion per surface. Call again with corrected ends for what was missed: a pair that is
+  /// found again keeps its key. O(n) for the boxes plus O(log n) per close pair.
+  std::vector<Contact> detect(const std::vector<SurfaceMotion>& motions);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bem

@@ -1,0 +1,83 @@
+#include "contact/moving_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace bem {
+namespace {
+
+constexpr double kFacing = 0.2;      ///< a vertex faces n if n . (its normal) < -kFacing
+constexpr double kTipSlack = 0.05;   ///< sine of the angle by which a neighbour may lie deeper
+constexpr double kArcSlack = 0.1;    ///< of the arc's angle
+constexpr double kMostSlack = 0.02;  ///< [rad]
+
+Vec3 unit(const Vec3& v) {
+  const double length = v.norm();
+  return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
+}
+
+}  // namespace
+
+Vec3 triangle_normal(const MovingSurface& surface, int triangle, double t) {
+  const auto [a, b, c] = surface.triangle(triangle, t);
+  return unit((b - a).cross(c - a));
+}
+
+Vec3 vertex_normal(const MovingSurface& surface, int vertex, double t) {
+  const SurfaceTopology& topology = *surface.topology;
+  const Vec3 at = surface.vertex(vertex, t);
+  Vec3 sum = Vec3::Zero();
+  for (int i = topology.fan_begin[vertex]; i < topology.fan_begin[vertex + 1]; ++i) {
+    const Triangle& c = topology.triangles[topology.fan_triangles[i]];
+    const int k = c[0] == vertex ? 0 : c[1] == vertex ? 1 : 2;
+    const Vec3 p = surface.vertex(c[(k + 1) % 3], t) - at;
+    const Vec3 q = surface.vertex(c[(k + 2) % 3], t) - at;
+    const Vec3 normal = p.cross(q);
+    const double sine = normal.norm();
+    if (sine > 0) sum += std::atan2(sine, p.dot(q)) / sine * normal;
+  }
+  return unit(sum);
+}
+
+Vec3 edge_normal(const MovingSurface& surface, int edge, double t) {
+  const auto& triangles = surface.topology->edges[edge].triangles;
+  Vec3 sum = triangle_normal(surface, triangles[0], t);
+  if (triangles[1] >= 0) sum += triangle_normal(surface, triangles[1], t);
+  return sum;
+}
+
+bool NormalArc::contains(const Vec3& direction) const {
+  const double slack = std::min(kMostSlack, kArcSlack * angle);
+  return first.cross(direction).dot(edge) >= -slack &&
+         direction.cross(second).dot(edge) >= -slack && direction.dot(first + second) > 0;
+}
+
+NormalArc normal_arc(const MovingSurface& surface, int edge, double t) {
+  const SurfaceTopology::Edge& e = surface.topology->edges[edge];
+  NormalArc arc;
+  arc.edge = unit(surface.vertex(e.vertices[1], t) - surface.vertex(e.vertices[0], t));
+  arc.first = triangle_normal(surface, e.triangles[0], t);
+  arc.second = e.triangles[1] >= 0 ? triangle_normal(surface, e.triangles[1], t)
+                                   : Vec3(arc.edge.cross(arc.first));
+  arc.angle = std::atan2(arc.first.cross(arc.second).dot(arc.edge), arc.first.dot(arc.second));
+  return arc;
+}
+
+bool faces(const MovingSurface& surface, int vertex, double t, const Vec3& n) {
+  const double along = n.dot(vertex_normal(surface, vertex, t));
+  if (along < -kFacing) return true;
+  if (along >= 0) return false;
+  const SurfaceTopology& topology = *surface.topology;
+  const Vec3 at = surface.vertex(vertex, t);
+  for (int i = topology.fan_begin[vertex]; i < topology.fan_begin[vertex + 1]; ++i) {
+    for (int v : topology.triangles[topology.fan_triangles[i]]) {
+      const Vec3 d = surface.vertex(v, t) - at;
+      if (n.dot(d) < -kTipSlack * d.norm()) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace bem

@@ -1,0 +1,94 @@
+#include "contact/penetration.hpp"
+
+#include "contact/bounding_tree.hpp"
+#include "contact/closest_points.hpp"
+#include "contact/moving_surface.hpp"
+
+#include <limits>
+
+namespace bem {
+namespace {
+
+double squared_distance(const Vec3& p, const BoundingBox& box) {
+  return (box.min - p).cwiseMax(p - box.max).cwiseMax(0.0).squaredNorm();
+}
+
+/// The triangle nearest to a point.
+class NearestTriangle {
+ public:
+  NearestTriangle(const BoundingTree& tree, const MovingSurface& surface, const Vec3& p)
+      : tree_(tree), surface_(surface), p_(p) {
+    visit(0);
+  }
+
+  /// Distance to the surface, negative inside.
+  double signed_distance() const {
+    Vec3 normal = triangle_normal(surface_, triangle_, 0);
+    if (closest_.feature == TrianglePoint::Feature::edge)
+      normal =
+          edge_normal(surface_, surface_.topology->triangle_edges[triangle_][closest_.index], 0);
+    if (closest_.feature == TrianglePoint::Feature::corner)
+      normal = vertex_normal(surface_, surface_.topology->triangles[triangle_][closest_.index], 0);
+    const Vec3 between = p_ - closest_.point;
+    return normal.dot(between) < 0 ? -between.norm() : between.norm();
+  }
+
+ private:
+  void visit(int index) {
+    const BoundingTree::Node& node = tree_.nodes()[index];
+    if (squared_distance(p_, node.box) >= nearest_) return;
+    if (!node.leaf()) {
+      const int first = index + 1;
+      const bool ahead = squared_distance(p_, tree_.nodes()[first].box) <=
+                         squared_distance(p_, tree_.nodes()[node.right].box);
+      visit(ahead ? first : node.right);
+      visit(ahead ? node.right : first);
+      return;
+    }
+    for (int i = node.begin; i < node.end; ++i) {
+      const auto [a, b, c] = surface_.triangle(tree_.order()[i], 0);
+      const TrianglePoint closest = closest_on_triangle(p_, a, b, c);
+      const double distance = (p_ - closest.point).squaredNorm();
+      if (distance >= nearest_) continue;
+      nearest_ = distance;
+      closest_ = closest;
+      triangle_ = tree_.order()[i];
+    }
+  }
+
+  const BoundingTree& tree_;
+  const MovingSurface& surface_;
+  const Vec3& p_;
+  double nearest_ = std::numeric_limits<double>::infinity();
+  TrianglePoint closest_;
+  int triangle_ = 0;
+};
+
+}  // namespace
+
+Penetration deepest_penetration(const std::vector<Vec3>& points,
+                                const std::vector<Triangle>& triangles,
+                                const std::vector<Vec3>& vertices) {
+  Penetration deepest;
+  if (triangles.empty()) return deepest;
+  const SurfaceTopology topology = make_topology(triangles, static_cast<int>(vertices.size()));
+  const MovingSurface surface{0, &topology, &vertices, &vertices};
+  const BoundingTree tree(triangles, vertices);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (squared_distance(points[i], tree.nodes().front().box) > 0) continue;
+    const double depth = -NearestTriangle(tree, surface, points[i]).signed_distance();
+    if (depth > deepest.depth) deepest = {depth, static_cast<int>(i)};
+  }
+  return deepest;
+}
+
+Penetration deepest_penetration(const std::vector<Vec3>& points, const CollisionPlane& plane) {
+  Penetration deepest;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double depth = -plane.normal.dot(points[i] - plane.point);
+    if (depth > deepest.depth) deepest = {depth, static_cast<int>(i)};
+  }
+  return deepest;
+}
+
+}  // namespace bem

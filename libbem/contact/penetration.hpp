@@ -1,0 +1,22 @@
+#pragma once
+
+#include "contact/collision_detector.hpp"
+
+namespace bem {
+
+/// The deepest penetration found, and where.
+struct Penetration {
+  double depth = 0;  ///< [m], 0 if nothing penetrates
+  int vertex = -1;   ///< the deepest vertex, -1 if nothing penetrates
+};
+
+/// Deepest of the `points` inside a closed surface: its distance to the nearest triangle, whose
+/// pseudonormal tells inside from outside. O((n + m) log m) for n points in the surface's box.
+Penetration deepest_penetration(const std::vector<Vec3>& points,
+                                const std::vector<Triangle>& triangles,
+                                const std::vector<Vec3>& vertices);
+
+/// Deepest of the points below the plane. O(n).
+Penetration deepest_penetration(const std::vector<Vec3>& points, const CollisionPlane& plane);
+
+}  // namespace bem

@@ -1,0 +1,328 @@
+#include "contact/vertex_contacts.hpp"
+
+#include "contact/closest_points.hpp"
+#include "contact/coplanarity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+namespace bem {
+namespace {
+
+constexpr double kSameSide = 0.5;          ///< least cosine between entered and holding triangle
+constexpr double kSteepest = 0.6;          ///< sine of the steepest way from one to the other
+constexpr double kSameDirection = 0.9998;  ///< cosine above which two normals are one
+
+constexpr double kRim = 0.1;  ///< of the margin
+
+/// The vertex and one triangle at one time.
+struct Place {
+  TrianglePoint closest;
+  Vec3 normal;
+  double height = 0;    ///< above the triangle's plane [m]
+  double overhang = 0;  ///< how far its foot on the plane lies outside the triangle [m]
+};
+
+struct Candidate {
+  int triangle;
+  Place start, end;
+};
+
+/// A triangle that may hold the vertex.
+struct Proposal {
+  double time;  ///< of the impact; 1 if it only ends near
+  Vec3 normal;  ///< of the triangle at that time
+  double gap_end;
+  const Candidate* candidate;
+};
+
+class VertexContacts {
+ public:
+  VertexContacts(const MovingSurface& a, int vertex, const MovingSurface& b,
+                 const ContactLimits& limits)
+      : a_(a),
+        b_(b),
+        vertex_(vertex),
+        limits_(limits),
+        inclusive_(3 * limits.tolerance),
+        rim_(kRim * limits.margin),
+        start_(a.vertex(vertex, 0)),
+        end_(a.vertex(vertex, 1)) {}
+
+  void add(const int* first, const int* last, std::vector<Contact>& contacts) {
+    candidates_.reserve(last - first);
+    for (; first != last; ++first)
+      candidates_.push_back({*first, place(*first, 0, start_), place(*first, 1, end_)});
+    propose_entered();
+    propose_near();
+    for (const Proposal& p : proposals_)
+      if (is_needed(p) && faces(a_, vertex_, p.time, p.normal)) accepted_.push_back(p);
+    for (const Proposal& p : accepted_) contacts.push_back(contact(p));
+  }
+
+ private:
+  Place place(int triangle, double t, const Vec3& at) const {
+    const auto [p, q, r] = b_.triangle(triangle, t);
+    Place result;
+    result.closest = closest_on_triangle(at, p, q, r);
+    result.normal = triangle_normal(b_, triangle, t);
+    const Vec3 between = at - result.closest.point;
+    result.height = result.normal.dot(between);
+    result.overhang = (between - result.height * result.normal).norm();
+    return result;
+  }
+
+  /// Triangles the vertex touches at the start or goes through later, the earliest first.
+  void propose_entered() {
+    double nearest = 0;
+    const bool inside = starts_inside(nearest);
+    for (const Candidate& c : candidates_) {
+      if (touches_at_start(c.start, inside, nearest)) {
+        propose_hit(c, 0, c.start);
+      } else {
+        propose_crossed(c);
+      }
+    }
+    std::sort(proposals_.begin(), proposals_.end(), [](const Proposal& x, const Proposal& y) {
+      return std::make_tuple(x.time, -x.gap_end, x.candidate->triangle) <
+             std::make_tuple(y.time, -y.gap_end, y.candidate->triangle);
+    });
+  }
+
+  /// Is the vertex inside at the start, judged by the nearest triangle; and how near is that?
+  bool starts_inside(double& nearest) const {
+    const Candidate* best = nullptr;
+    nearest = std::numeric_limits<double>::infinity();
+    for (const Candidate& c : candidates_) {
+      const double distance = (start_ - c.start.closest.point).norm();
+      if (distance < nearest) {
+        nearest = distance;
+        best = &c;
+      }
+    }
+    if (!best || nearest > limits_.recovery_depth) return false;
+    const TrianglePoint& closest = best->start.closest;
+    Vec3 normal = best->start.normal;
+    if (closest.feature == TrianglePoint::Feature::edge)
+      normal = edge_normal(b_, b_.topology->triangle_edges[best->triangle][closest.index], 0);
+    if (closest.feature == TrianglePoint::Feature::corner)
+      normal = vertex_normal(b_, b_.topology->triangles[best->triangle][closest.index], 0);
+    return normal.dot(start_ - closest.point) < 0;
+  }
+
+  bool touches_at_start(const Place& start, bool inside, double nearest) const {
+    if (start.height > limits_.tolerance || start.height < -limits_.recovery_depth) return false;
+    if (start.height >= -limits_.tolerance && start.overhang <= inclusive_) return true;
+    return inside && (start_ - start.closest.point).norm() <=
+                         std::min(nearest + limits_.tolerance, limits_.recovery_depth);
+  }
+
+  void propose_crossed(const Candidate& c) {
+    const Triangle& t = b_.topology->triangles[c.triangle];
+    const Vec3 corner = b_.vertex(t[0], 0), moved = b_.change(t[0]);
+    const Crossings crossings =
+        sign_changes(triple_product({start_ - corner, a_.change(vertex_) - moved},
+                                    {b_.vertex(t[1], 0) - corner, b_.change(t[1]) - moved},
+                                    {b_.vertex(t[2], 0) - corner, b_.change(t[2]) - moved}));
+    for (int i = 0; i < crossings.count; ++i) {
+      const double time = crossings.at[i].time;
+      if (!crossings.at[i].falling) continue;
+      const Place hit = place(c.triangle, time, a_.vertex(vertex_, time));
+      if (hit.overhang > inclusive_) continue;
+      propose_hit(c, time, hit);
+      return;
+    }
+  }
+
+  /// The triangle beyond a sharp convex edge of `triangle` that the place is right beside, if the
+  /// vertex can as well be pushed out on that side; null without one.
+  const Candidate* beyond_edge(int triangle, const Place& place, double t) const {
+    const Triangle& corners = b_.topology->triangles[triangle];
+    for (int k = 0; k < 3; ++k) {
+      const auto& sides = b_.topology->edges[b_.topology->triangle_edges[triangle][k]].triangles;
+      const int other = sides[0] == triangle ? sides[1] : sides[0];
+      if (other < 0) continue;
+      const Vec3 p = b_.vertex(corners[k], t), q = b_.vertex(corners[(k + 1) % 3], t);
+      const Vec3 r = b_.vertex(corners[(k + 2) % 3], t);
+      const double altitude = (q - p).cross(r - p).norm() / (q - p).norm();
+      if (place.closest.weights[(k + 2) % 3] * altitude > rim_) continue;
+      const Vec3 n = triangle_normal(b_, other, t);
+      if (n.dot(r - p) >= 0 || n.dot(place.normal) > kSameSide || !faces(a_, vertex_, t, n))
+        continue;
+      const auto found = std::find_if(candidates_.begin(), candidates_.end(),
+                                      [&](const Candidate& c) { return c.triangle == other; });
+      if (found != candidates_.end()) return &*found;
+    }
+    return nullptr;
+  }
+
+  /// The vertex enters the surface at `hit`. Right beside a sharp edge it is pushed out on the
+  /// side where it ends less deep, so that bodies set flush do not catch on each other.
+  void propose_hit(const Candidate& c, double time, const Place& hit) {
+    const Candidate* beyond = beyond_edge(c.triangle, hit, time);
+    const bool shorter = beyond && beyond->end.normal.dot(end_ - beyond->end.closest.point) >
+                                       c.end.normal.dot(end_ - c.end.closest.point);
+    if (shorter)
+      propose_at_end(*beyond, time, beyond->start.closest.weights);
+    else
+      propose_at_end(c, time, hit.closest.weights);
+  }
+
+  /// The vertex has entered the surface through triangle c at `time`, at its point `weights`; it is
+  /// held by the triangle under its end that can be reached from there without a steep way, or else
+  /// by c.
+  void propose_at_end(const Candidate& c, double time, const std::array<double, 3>& weights) {
+    const Vec3 entered = triangle_normal(b_, c.triangle, time);
+    const auto [p, q, r] = b_.triangle(c.triangle, 1);
+    const Vec3 entry = weights[0] * p + weights[1] * q + weights[2] * r;
+    Proposal best{time, entered, entered.dot(end_ - c.end.closest.point), &c};
+    double nearest = c.end.overhang <= inclusive_ ? std::abs(c.end.height)
+                                                  : std::numeric_limits<double>::infinity();
+    for (const Candidate& other : candidates_) {
+      if (other.end.overhang > inclusive_ || !(std::abs(other.end.height) < nearest)) continue;
+      const Vec3 normal = triangle_normal(b_, other.triangle, time);
+      const Vec3 way = other.end.closest.point - entry;
+      if (normal.dot(entered) < kSameSide ||
+          std::abs(entered.dot(way)) > kSteepest * way.norm() + limits_.tolerance)
+        continue;
+      nearest = std::abs(other.end.height);
+      best = {time, normal, normal.dot(end_ - other.end.closest.point), &other};
+    }
+    if (best.gap_end < limits_.margin) proposals_.push_back(best);
+  }
+
+  /// Triangles the vertex ends above, the nearest first.
+  void propose_near() {
+    const auto entered = static_cast<std::ptrdiff_t>(proposals_.size());
+    for (const Candidate& c : candidates_) {
+      if (c.end.overhang > inclusive_ || c.end.height < -limits_.tolerance ||
+          c.end.height >= limits_.margin)
+        continue;
+      const Candidate* beyond = beyond_edge(c.triangle, c.end, 1);
+      if (!beyond || beyond->end.normal.dot(end_ - beyond->end.closest.point) < -rim_)
+        proposals_.push_back({1, c.end.normal, c.end.height, &c});
+    }
+    std::sort(proposals_.begin() + entered, proposals_.end(),
+              [](const Proposal& x, const Proposal& y) {
+                return std::tie(x.gap_end, x.candidate->triangle) <
+                       std::tie(y.gap_end, y.candidate->triangle);
+              });
+  }
+
+  /// Does the proposal add something to what is accepted: another direction, and a wall that stands
+  /// in front of the others and they in front of it?
+  bool is_needed(const Proposal& p) const {
+    for (const Proposal& q : accepted_)
+      if (q.candidate == p.candidate || p.normal.dot(q.normal) > kSameDirection ||
+          !is_in_front(p, q) || !is_in_front(q, p))
+        return false;
+    return true;
+  }
+
+  /// Is what x holds the vertex above in front of y? Where both are at one place, the whole
+  /// triangles tell.
+  bool is_in_front(const Proposal& x, const Proposal& y) const {
+    const Vec3& at = y.candidate->end.closest.point;
+    const Vec3 way = x.candidate->end.closest.point - at;
+    if (way.norm() > 10 * inclusive_) return y.normal.dot(way) >= -limits_.tolerance;
+    const auto [p, q, r] = b_.triangle(x.candidate->triangle, 1);
+    return y.normal.dot((p + q + r) / 3 - at) > 0;
+  }
+
+  Contact contact(const Proposal& p) const {
+    const Triangle& t = b_.topology->triangles[p.candidate->triangle];
+    Contact c;
+    c.a = {a_.index, 1, {vertex_, -1, -1}, {1, 0, 0}};
+    c.b = {b_.index, 3, t, p.candidate->end.closest.weights};
+    c.normal = p.normal;
+    c.point = p.candidate->end.closest.point;
+    c.offset_start = start_ - c.b.place(*b_.start);
+    c.gap_start = c.normal.dot(c.offset_start);
+    c.gap_end = p.gap_end;
+    c.key = {a_.index, b_.index, ContactKind::vertex_triangle, vertex_, p.candidate->triangle};
+    return c;
+  }
+
+  const MovingSurface& a_;
+  const MovingSurface& b_;
+  int vertex_;
+  const ContactLimits& limits_;
+  double inclusive_;  ///< a foot this far outside a triangle is still on it [m]
+  double rim_;        ///< a foot this far inside a triangle is beside its edge [m]
+  Vec3 start_, end_;
+  std::vector<Candidate> candidates_;
+  std::vector<Proposal> proposals_, accepted_;
+};
+
+/// The vertex that side b of the contact is at, -1 if it is not at any.
+int vertex_of_b(const Contact& c, const MovingSurface& b, double tolerance) {
+  if (c.key.kind != ContactKind::vertex_triangle) return -1;
+  for (int v : c.b.vertices)
+    if ((b.vertex(v, 1) - c.point).norm() <= tolerance) return v;
+  return -1;
+}
+
+}  // namespace
+
+void remove_mirrored(const ContactLimits& limits, const MovingSurface& a, const MovingSurface& b,
+                     std::vector<Contact>& contacts) {
+  // (vertex of the first surface, vertex of the second, which of them is side a, contact)
+  std::vector<std::tuple<int, int, bool, std::size_t>> meetings;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& c = contacts[i];
+    const bool swapped = c.key.surface_a != a.index;
+    const int v = c.key.feature_a;
+    const int w = vertex_of_b(c, swapped ? a : b, 3 * limits.tolerance);
+    if (w >= 0) meetings.emplace_back(swapped ? w : v, swapped ? v : w, swapped, i);
+  }
+  std::sort(meetings.begin(), meetings.end());
+  std::vector<char> removed(contacts.size(), 0);
+  const auto same_meeting = [](const auto& x, const auto& y) {
+    return std::get<0>(x) == std::get<0>(y) && std::get<1>(x) == std::get<1>(y);
+  };
+  for (std::size_t i = 0; i < meetings.size(); ++i) {
+    for (std::size_t j = i + 1; j < meetings.size() && same_meeting(meetings[i], meetings[j]);
+         ++j) {
+      const std::size_t first = std::get<3>(meetings[i]), second = std::get<3>(meetings[j]);
+      if (std::get<2>(meetings[i]) != std::get<2>(meetings[j]) &&
+          contacts[first].normal.dot(contacts[second].normal) < -kSameDirection)
+        removed[contacts[first].key < contacts[second].key ? second : first] = 1;
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (!removed[i]) contacts[kept++] = contacts[i];
+  contacts.resize(kept);
+}
+
+void add_vertex_contacts(const MovingSurface& a, int vertex, const MovingSurface& b,
+                         const int* first, const int* last, const ContactLimits& limits,
+                         std::vector<Contact>& contacts) {
+  VertexContacts(a, vertex, b, limits).add(first, last, contacts);
+}
+
+void add_plane_contacts(const MovingSurface& a, int plane_index, const Vec3& point,
+                        const Vec3& normal, const ContactLimits& limits,
+                        std::vector<Contact>& contacts) {
+  for (int v = 0; v < a.topology->vertex_count(); ++v) {
+    const Vec3 end = a.vertex(v, 1);
+    const double gap = normal.dot(end - point);
+    if (gap >= limits.margin) continue;
+    Contact c;
+    c.a = {a.index, 1, {v, -1, -1}, {1, 0, 0}};
+    c.b.surface = plane_index;
+    c.normal = normal;
+    c.point = end - gap * normal;
+    c.offset_start = a.vertex(v, 0) - c.point;
+    c.gap_start = normal.dot(c.offset_start);
+    c.gap_end = gap;
+    c.key = {a.index, plane_index, ContactKind::vertex_plane, v, 0};
+    contacts.push_back(c);
+  }
+}
+
+}  // namespace bem
