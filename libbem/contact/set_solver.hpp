@@ -1,0 +1,36 @@
+#pragma once
+
+#include "contact/contact_set.hpp"
+#include "contact/friction_solver.hpp"
+
+namespace bem {
+
+/// What a solver did with one connected set.
+struct SetResult {
+  int sweeps = 0, newton_steps = 0;
+  double error = 0;  ///< of the returned forces
+};
+
+/// Keeps the forces with the least error.
+class BestForces {
+ public:
+  BestForces(const ContactSet& set, const Eigen::VectorXd& start);
+
+  /// Evaluates the error of `forces` and keeps them if it is the least so far; returns it.
+  double consider(const Eigen::VectorXd& forces);
+  double error() const { return error_; }
+  const Eigen::VectorXd& forces() const { return forces_; }
+
+ private:
+  const ContactSet& set_;
+  Eigen::VectorXd forces_;
+  double error_;
+};
+
+/// Solvers of one set: they improve `best` until its error is at most `tolerance`.
+SetResult solve_staggered(const ContactSet& set, double tolerance, const FrictionOptions& options,
+                          BestForces& best);
+SetResult solve_nsgs(const ContactSet& set, double tolerance, const FrictionOptions& options,
+                     BestForces& best);
+
+}  // namespace bem
