@@ -7,12 +7,12 @@
 namespace bem {
 namespace {
 
-using Feature = TrianglePoint::Feature;
+using Feature = NearestPoint::Feature;
 
 }  // namespace
 
 // Voronoi regions of corners, edges and face in turn (Ericson, Real-Time Collision Detection, 5.1).
-TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+NearestPoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a;
   const double d1 = ab.dot(p - a), d2 = ac.dot(p - a);
   if (d1 <= 0 && d2 <= 0) return {Feature::corner, 0, {1, 0, 0}, a};

@@ -7,7 +7,7 @@
 namespace bem {
 
 /// The point of a triangle that is closest to another point.
-struct TrianglePoint {
+struct NearestPoint {
   /// The feature it lies on: the smallest one.
   enum class Feature { face, edge, corner };
 
@@ -17,7 +17,7 @@ struct TrianglePoint {
   Vec3 point = Vec3::Zero();
 };
 
-TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+NearestPoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Where the lines p + s (q - p) and r + u (t - r) come closest.
 struct LinePair {

@@ -116,7 +116,7 @@ class Planner {
     double best = std::numeric_limits<double>::infinity();
     Attachment at;
     for (const Triangle& t : g.nodes.triangles) {
-      const SurfaceProjection p = closest_on_triangle(end.point, x[t[0]], x[t[1]], x[t[2]]);
+      const NearestPoint p = closest_on_triangle(end.point, x[t[0]], x[t[1]], x[t[2]]);
       const double distance = (p.point - end.point).norm();
       if (distance >= best) continue;
       best = distance;

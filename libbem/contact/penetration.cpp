@@ -24,10 +24,10 @@ class NearestTriangle {
   /// Distance to the surface, negative inside.
   double signed_distance() const {
     Vec3 normal = triangle_normal(surface_, triangle_, 0);
-    if (closest_.feature == TrianglePoint::Feature::edge)
+    if (closest_.feature == NearestPoint::Feature::edge)
       normal =
           edge_normal(surface_, surface_.topology->triangle_edges[triangle_][closest_.index], 0);
-    if (closest_.feature == TrianglePoint::Feature::corner)
+    if (closest_.feature == NearestPoint::Feature::corner)
       normal = vertex_normal(surface_, surface_.topology->triangles[triangle_][closest_.index], 0);
     const Vec3 between = p_ - closest_.point;
     return normal.dot(between) < 0 ? -between.norm() : between.norm();
@@ -47,7 +47,7 @@ class NearestTriangle {
     }
     for (int i = node.begin; i < node.end; ++i) {
       const auto [a, b, c] = surface_.triangle(tree_.order()[i], 0);
-      const TrianglePoint closest = closest_on_triangle(p_, a, b, c);
+      const NearestPoint closest = closest_on_triangle(p_, a, b, c);
       const double distance = (p_ - closest.point).squaredNorm();
       if (distance >= nearest_) continue;
       nearest_ = distance;
@@ -60,7 +60,7 @@ class NearestTriangle {
   const MovingSurface& surface_;
   const Vec3& p_;
   double nearest_ = std::numeric_limits<double>::infinity();
-  TrianglePoint closest_;
+  NearestPoint closest_;
   int triangle_ = 0;
 };
 

@@ -21,7 +21,7 @@ constexpr double kRim = 0.1;  ///< of the margin
 
 /// The vertex and one triangle at one time.
 struct Place {
-  TrianglePoint closest;
+  NearestPoint closest;
   Vec3 normal;
   double height = 0;    ///< above the triangle's plane [m]
   double overhang = 0;  ///< how far its foot on the plane lies outside the triangle [m]
@@ -105,11 +105,11 @@ class VertexContacts {
       }
     }
     if (!best || nearest > limits_.recovery_depth) return false;
-    const TrianglePoint& closest = best->start.closest;
+    const NearestPoint& closest = best->start.closest;
     Vec3 normal = best->start.normal;
-    if (closest.feature == TrianglePoint::Feature::edge)
+    if (closest.feature == NearestPoint::Feature::edge)
       normal = edge_normal(b_, b_.topology->triangle_edges[best->triangle][closest.index], 0);
-    if (closest.feature == TrianglePoint::Feature::corner)
+    if (closest.feature == NearestPoint::Feature::corner)
       normal = vertex_normal(b_, b_.topology->triangles[best->triangle][closest.index], 0);
     return normal.dot(start_ - closest.point) < 0;
   }

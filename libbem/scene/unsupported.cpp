@@ -4,11 +4,6 @@ namespace bem {
 
 std::optional<std::pair<Location, std::string>> first_unsupported(const Scene& scene) {
   const std::string end = " not yet supported";
-  if (!scene.obstacles.empty())
-    return std::make_pair(scene.obstacles.front().location, "obstacles are" + end);
-  if (!scene.joints.empty())
-    return std::make_pair(scene.joints.front().location, "joints are" + end);
-  if (scene.contact.enabled) return std::make_pair(scene.contact.location, "contact is" + end);
   for (OutputFormat format : scene.output.formats) {
     if (format == OutputFormat::vtp)
       return std::make_pair(scene.output.location, "the output format vtp is" + end);

@@ -1,6 +1,8 @@
 #include "archive_source.hpp"
 
 #include "base/error.hpp"
+#include "mesh/mesh_io.hpp"
+#include "mesh/surface.hpp"
 #include "scene/location.hpp"
 
 namespace bem {
@@ -37,7 +39,7 @@ TractionData ArchiveSource::tractions(const FilePath& path, const std::vector<in
 }
 
 TriangleMesh ArchiveSource::obstacle(const FilePath& path) {
-  return at_place(path, [&] { return read_obstacle_mesh(path.resolved); });
+  return at_place(path, [&] { return make_open_surface(read_mesh(path.resolved), path.resolved); });
 }
 
 }  // namespace bem

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
+#include "contact/joints.hpp"
 #include "dynamics/selection.hpp"
 #include "mesh/describe.hpp"
 #include "scene/unsupported.hpp"
@@ -45,8 +46,6 @@ PlannedBody plan_body(const Scene& scene, const BodySpec& spec, ArchiveSource& s
   PlannedBody body{&spec, &source.open(spec.archive), 0, 0, {}};
   check_time_step(scene, spec, body.archive->discretisation().dt);
   const BodyGeometry& geometry = body.archive->geometry();
-  for (const PrescribedNode& node : prescribed_nodes(geometry, spec))
-    ++(node.handle ? body.handled : body.fixed);
   for (const TractionSpec& load : spec.tractions)
     body.loaded.push_back(select_triangles(geometry, load.select).size());
   return body;
@@ -128,8 +127,14 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
   apply_options(options, *plan);
   if (const auto unsupported = first_unsupported(plan->scene))
     throw error_at(unsupported->first, unsupported->second);
-  for (const BodySpec& body : plan->scene.bodies)
+  std::vector<const BodyGeometry*> geometries;
+  for (const BodySpec& body : plan->scene.bodies) {
     plan->bodies.push_back(plan_body(plan->scene, body, source));
+    geometries.push_back(&plan->bodies.back().archive->geometry());
+  }
+  for (const Joint& joint : plan_joints(plan->scene, geometries).joints)
+    if (joint.prescribed)
+      ++(joint.handle ? plan->bodies[joint.a.body].handled : plan->bodies[joint.a.body].fixed);
   plan->memory = memory_of(plan->bodies);
   add_warnings(*plan);
   return plan;

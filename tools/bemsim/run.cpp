@@ -76,7 +76,7 @@ void check_finite(const Body& body, const BodyFrame& frame, double time) {
 class Run {
  public:
   Run(const Plan& plan, ArchiveSource& source, const Options& options, Log& log)
-      : plan_(plan), log_(log), statistics_(plan.bodies.size()), bar_(log) {
+      : plan_(plan), log_(log), bar_(log) {
     if (!options.stats.empty()) stats_file_ = std::make_unique<PendingFile>(options.stats);
     timer_.begin(kLoadingPhase);
     simulation_ = std::make_unique<Simulation>(plan.scene, source);

@@ -42,31 +42,55 @@ Json phases_json(const PhaseTimes& times, double output, long steps) {
 }  // namespace
 
 void RunStatistics::record_step(const Simulation& simulation) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const SolveStatistics& s = simulation.bodies()[i].statistics();
-    bodies_[i].iterations += s.iterations;
-    bodies_[i].most_iterations = std::max(bodies_[i].most_iterations, s.iterations);
-    bodies_[i].largest_residual = std::max(bodies_[i].largest_residual, s.residual);
-  }
+  const ConstraintStatistics& s = simulation.statistics();
+  sum_.contacts += s.contacts;
+  sum_.iterations += s.iterations;
+  sum_.sweeps += s.sweeps;
+  sum_.newton_steps += s.newton_steps;
+  most_.contacts = std::max(most_.contacts, s.contacts);
+  most_.iterations = std::max(most_.iterations, s.iterations);
+  most_.sweeps = std::max(most_.sweeps, s.sweeps);
+  most_.newton_steps = std::max(most_.newton_steps, s.newton_steps);
+  most_.joint_residual = std::max(most_.joint_residual, s.joint_residual);
+  most_.contact_error = std::max(most_.contact_error, s.contact_error);
+  most_.complementarity = std::max(most_.complementarity, s.complementarity);
+  most_.penetration = std::max(most_.penetration, s.penetration);
+  contact_steps_ += s.contacts > 0;
+  unconverged_steps_ += !s.converged;
 }
 
-Json RunStatistics::body_json(const PlannedBody& planned, const Body& body,
-                              const BodyRecord& record, long steps) const {
+Json RunStatistics::constraints_json(long steps) const {
+  const auto count = [&](int most, int sum) {
+    return Json{{"max", most}, {"mean", per_step(sum, steps)}};
+  };
+  return {{"iterations", count(most_.iterations, sum_.iterations)},
+          {"contacts", count(most_.contacts, sum_.contacts)},
+          {"steps_with_contact", contact_steps_},
+          {"steps_not_converged", unconverged_steps_},
+          {"solver_sweeps", count(most_.sweeps, sum_.sweeps)},
+          {"solver_newton_steps", count(most_.newton_steps, sum_.newton_steps)},
+          {"largest_joint_residual", most_.joint_residual},
+          {"largest_contact_error", most_.contact_error},
+          {"largest_complementarity", most_.complementarity},
+          {"largest_penetration", most_.penetration}};
+}
+
+namespace {
+
+Json body_json(const PlannedBody& planned, const Body& body) {
   const BodyModel& model = body.model();
   return {{"name", body.name()},
           {"archive", planned.spec->archive.written},
           {"vertices", model.geometry.input.vertices.size()},
-          {"prescribed_vertices", body.prescribed()},
+          {"prescribed_vertices", planned.fixed + planned.handled},
           {"loads", body.loads()},
           {"window", model.window},
           {"growth", model.report.growth},
-          {"iterations",
-           {{"max", record.most_iterations},
-            {"mean", per_step(static_cast<double>(record.iterations), steps)}}},
-          {"largest_residual", record.largest_residual},
           {"linear_momentum", vector_json(body.linear_momentum())},
           {"angular_momentum", vector_json(body.frame().angular_momentum())}};
 }
+
+}  // namespace
 
 Json RunStatistics::json(const Plan& plan, const Simulation& simulation, const PhaseTimer& timer,
                          const std::string& outcome) const {
@@ -77,8 +101,8 @@ Json RunStatistics::json(const Plan& plan, const Simulation& simulation, const P
     cpu += p.cpu_seconds;
   }
   Json bodies = Json::array();
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    bodies.push_back(body_json(plan.bodies[i], simulation.bodies()[i], bodies_[i], steps));
+  for (std::size_t i = 0; i < plan.bodies.size(); ++i)
+    bodies.push_back(body_json(plan.bodies[i], simulation.bodies()[i]));
   return {{"program", version_text()},
           {"scene", plan.scene.location.file},
           {"outcome", outcome},
@@ -94,6 +118,7 @@ Json RunStatistics::json(const Plan& plan, const Simulation& simulation, const P
           {"peak_memory_bytes", peak_memory()},
           {"matrix_bytes", simulation.matrix_bytes()},
           {"phases", phases_json(simulation.times(), wall_seconds(timer, kOutputPhase), steps)},
+          {"constraints", constraints_json(steps)},
           {"bodies", bodies},
           {"warnings", plan.warnings}};
 }

@@ -44,7 +44,7 @@ TEST_CASE("solutions satisfy the boundary integral equation and carry no rigid m
     const ElasticSystem system(model);
     const auto n = static_cast<Eigen::Index>(3 * model.nodes());
     const Eigen::MatrixXd sums = Eigen::MatrixXd::Random(n, model.components());
-    const SpectralState state = system.solve(sums);
+    const SpectralState state = system.solve({sums})[0];
     const Eigen::MatrixXd u = system.displacement_stages(state);
     CHECK((system.projection().rigid() * u).norm() < 1e-10 * u.norm());
     // H_0 (u + B z) = rhs: the inverse applied to D_0 z is what the projection took away

@@ -1,6 +1,7 @@
 #include "assembly/laplace_assembly.hpp"
 #include "base/parallel.hpp"
 #include "model/elastic_system.hpp"
+#include "model/nodal_tractions.hpp"
 #include "model/precompute.hpp"
 #include "support/models.hpp"
 
@@ -23,8 +24,10 @@ TEST_CASE("the stored inverse and traction response belong to H_0 and G_0") {
     const Eigen::MatrixXcd h = exact.h;
     const Eigen::MatrixXcd product = system.apply_inverse(0, h);
     CHECK((product - Eigen::MatrixXcd::Identity(h.rows(), h.cols())).cwiseAbs().maxCoeff() < 1e-5);
-    const TractionData t = extract_tractions(model, {0, 7, 50});
-    CHECK((h * t.response[0].col(1) - exact.g.col(7)).norm() < 1e-5 * exact.g.col(7).norm());
+    const TractionData t = extract_tractions(model, {0, 7, 15});
+    Eigen::VectorXcd response = t.response[0].real->extract_columns({4}).cast<Complex>();
+    if (t.response[0].imaginary) response.imag() = t.response[0].imaginary->extract_columns({4});
+    CHECK((h * response - exact.g.col(22)).norm() < 1e-5 * exact.g.col(22).norm());
     CHECK(model.report.condition > 1);
     CHECK(model.report.condition < 1e5);
     CHECK(model.report.rotation_residual < 1e-5);

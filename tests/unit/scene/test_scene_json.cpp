@@ -32,8 +32,8 @@ TEST_CASE("a scene that uses every key is read completely: the world") {
   REQUIRE(s.joints.size() == 2);
   REQUIRE(s.joints[0].type == JointType::point);
   REQUIRE(s.joints[0].a.body == 1);
-  REQUIRE(s.joints[0].b.body == 2);
-  REQUIRE(s.joints[0].b.point == Vec3(0.2, 0, 0));
+  REQUIRE(s.joints[0].b->body == 2);
+  REQUIRE(s.joints[0].b->point == Vec3(0.2, 0, 0));
   REQUIRE(s.joints[0].tolerance == 1e-6);
   REQUIRE(s.joints[1].type == JointType::weld);
   REQUIRE(s.joints[1].tolerance == 1e-3);

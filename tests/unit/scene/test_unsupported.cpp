@@ -18,16 +18,8 @@ TEST_CASE("parts that are not simulated yet are named with their place") {
   REQUIRE(unsupported(scene_with("")) == "");
   REQUIRE(unsupported(scene_with(",\"contact\": {\"enabled\": false},"
                                  "\"output\": {\"formats\": [\"obj\", \"hdf5\"]}")) == "");
-  REQUIRE(unsupported(scene_with(",\"contact\": {}")) ==
-          "s.json:2:13: /contact: contact is not yet supported");
   REQUIRE(unsupported(scene_with(",\"output\": {\"formats\": [\"hdf5\", \"vtp\"]}")) ==
           "s.json:2:12: /output: the output format vtp is not yet supported");
   REQUIRE(unsupported(scene_with(",\"output\": {\"formats\": [\"pc2\"]}")) ==
           "s.json:2:12: /output: the output format pc2 is not yet supported");
-  REQUIRE(unsupported(scene_with(",\"obstacles\": [{\"name\": \"o\", \"mesh\": \"m.obj\"}]")) ==
-          "s.json:2:16: /obstacles/0: obstacles are not yet supported");
-  bem::Scene scene = bem::parse_scene("s.json", bem::test::full_scene());
-  scene.obstacles.clear();
-  REQUIRE(bem::first_unsupported(scene)->second == "joints are not yet supported");
-  REQUIRE(bem::first_unsupported(scene)->first.pointer == "/joints/0");
 }
