@@ -1,12 +1,17 @@
 #pragma once
 
+#include "model/body_model.hpp"
+
 #include <string>
 
 // Names inside an archive, for its writer and reader; docs/archive-format.md describes them.
 
 namespace bem {
 
-inline constexpr char kArchiveModel[] = "dynamic";
+/// Attribute "model" of the root.
+inline const char* model_name(ModelKind kind) {
+  return kind == ModelKind::rigid ? "rigid" : "dynamic";
+}
 inline constexpr char kArchiveCodec[] = "none";
 
 /// "lag_001".

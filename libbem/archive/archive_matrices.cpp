@@ -105,8 +105,10 @@ class Archive::Loading {
 
 BodyModel Archive::load(bool tractions, const Progress& progress) const {
   BodyModel model;
+  model.kind = kind_;
   model.geometry = geometry_;
   model.discretisation = discretisation_;
+  if (kind_ == ModelKind::rigid) return model;
   model.window = window_;
   model.precision = precision_;
   model.report = report_;
@@ -146,6 +148,7 @@ Eigen::MatrixXd Archive::load_balance(const std::string& path) const {
 }
 
 void Archive::check_matrices(const Progress& progress) const {
+  if (kind_ == ModelKind::rigid) return;
   const BodyForce force = load_body_force();
   const auto finite = [](const auto& m) { return m.allFinite(); };
   if (!std::all_of(force.lags.begin(), force.lags.end(), finite) ||

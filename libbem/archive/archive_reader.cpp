@@ -19,15 +19,29 @@ Archive::Archive(const std::string& path)
   require_text("format", "bem matrix archive");
   if (file_.int_attribute("/", "format_version") != user_block_.version)
     refuse("its format version is not that of its header");
-  require_text("model", kArchiveModel);
+  read_kind();
+  read_geometry();
+  read_material();
+  read_provenance();
+  if (kind_ == ModelKind::rigid) return;
   require_text("codec", kArchiveCodec);
   const std::string precision = file_.string_attribute("/", "precision");
   if (precision != "float32" && precision != "float64")
     refuse("has the unknown precision \"" + precision + "\"");
   precision_ = precision == "float32" ? Precision::float32 : Precision::float64;
-  read_geometry();
   read_discretisation();
   read_report();
+}
+
+void Archive::read_kind() {
+  const std::string name = file_.string_attribute("/", "model");
+  for (ModelKind kind : {ModelKind::dynamic, ModelKind::rigid})
+    if (name == model_name(kind)) {
+      kind_ = kind;
+      return;
+    }
+  refuse("has the model \"" + name +
+         "\", but this version of the program understands \"dynamic\" and \"rigid\" only");
 }
 
 void Archive::refuse(const std::string& what) const {
@@ -98,15 +112,18 @@ void Archive::read_geometry() {
   g.extent = file_.double_attribute("/body", "extent");
 }
 
-void Archive::read_discretisation() {
-  Discretisation& d = discretisation_;
-  Material& m = d.material;
+void Archive::read_material() {
+  Material& m = discretisation_.material;
   m.name = file_.string_attribute("/material", "name");
   m.density = file_.double_attribute("/material", "density");
   m.shear_modulus = file_.double_attribute("/material", "shear_modulus");
   m.poisson_ratio = file_.double_attribute("/material", "poisson_ratio");
   if (file_.has_attribute("/material", "time_step"))
     m.time_step = file_.double_attribute("/material", "time_step");
+}
+
+void Archive::read_discretisation() {
+  Discretisation& d = discretisation_;
   d.dt = file_.double_attribute("/scheme", "dt");
   const std::int64_t history = file_.int_attribute("/scheme", "history_length");
   if (history < 1 || history > 1000000) refuse("has an impossible length of the history");
@@ -150,6 +167,9 @@ void Archive::read_report() {
   report_.rotation_residual = file_.double_attribute("/report", "rotation_residual");
   report_.condition = file_.double_attribute("/report", "condition");
   report_.growth = file_.double_attribute("/report", "growth");
+}
+
+void Archive::read_provenance() {
   provenance_.program = file_.string_attribute("/provenance", "program");
   provenance_.mesh_file = file_.string_attribute("/provenance", "mesh_file");
   provenance_.material_file = file_.string_attribute("/provenance", "material_file");
@@ -163,6 +183,7 @@ bool Archive::is_paired(std::size_t initial_component) const {
 
 std::vector<std::string> Archive::matrix_paths() const {
   std::vector<std::string> paths;
+  if (kind_ == ModelKind::rigid) return paths;
   for (const char* matrix : {"inverse", "traction_response"})
     for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
       paths.push_back(initial_path(matrix, i) + "/real");

@@ -27,6 +27,8 @@ class Archive {
 
   const std::string& path() const { return file_.path(); }
   const UserBlock& user_block() const { return user_block_; }
+  /// Of a rigid body there is nothing but geometry and material: no scheme, matrices or report.
+  ModelKind kind() const { return kind_; }
   const BodyGeometry& geometry() const { return geometry_; }
   const Discretisation& discretisation() const { return discretisation_; }
   double window() const { return window_; }
@@ -66,14 +68,17 @@ class Archive {
   class Loading;
 
   [[noreturn]] void refuse(const std::string& what) const;
+  void read_kind();
   void require_text(const std::string& name, const std::string& expected) const;
   std::vector<Vec3> read_points(const std::string& path) const;
   std::vector<Triangle> read_triangles(const std::string& path, std::size_t vertices) const;
   std::vector<int> read_indices(const std::string& path, std::size_t count, int lowest,
                                 std::size_t end) const;
   void read_geometry();
+  void read_material();
   void read_discretisation();
   void read_report();
+  void read_provenance();
   void check_scheme() const;
   std::size_t lag_components() const { return discretisation_.scheme.lag_components().size(); }
   bool is_paired(std::size_t initial_component) const;
@@ -81,6 +86,7 @@ class Archive {
 
   UserBlock user_block_;  // checked before the file is opened
   Hdf5File file_;
+  ModelKind kind_ = ModelKind::dynamic;
   BodyGeometry geometry_;
   Discretisation discretisation_;
   double window_ = 1;

@@ -244,6 +244,7 @@ void check_archive_target(const std::string& path, bool force, double bytes) {
 
 double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& options) {
   const Discretisation& d = options.discretisation;
+  if (options.kind == ModelKind::rigid) return overhead_bytes(geometry, 0);
   const double lags = d.history_length * static_cast<double>(d.scheme.lag_components().size());
   return precompute_memory(geometry.nodes.vertices.size(), options).stored +
          overhead_bytes(geometry, 2 * lags);
@@ -251,7 +252,8 @@ double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& opti
 
 void write_archive(const std::string& path, const BodyModel& model, const Provenance& provenance,
                    bool force, const Progress& progress) {
-  check_complete(model);
+  const bool rigid = model.kind == ModelKind::rigid;
+  if (!rigid) check_complete(model);
   const double bytes =
       matrix_bytes(model) +
       overhead_bytes(model.geometry, static_cast<double>(model.h.size() + model.g.size()));
@@ -262,16 +264,18 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
   Hdf5File file = Hdf5File::create(pending.temporary_path(), options);
   file.set_attribute("/", "format", "bem matrix archive");
   file.set_attribute("/", "format_version", kArchiveVersion);
-  file.set_attribute("/", "model", kArchiveModel);
-  file.set_attribute("/", "codec", kArchiveCodec);
-  file.set_attribute("/", "precision",
-                     model.precision == Precision::float32 ? "float32" : "float64");
+  file.set_attribute("/", "model", model_name(model.kind));
   write_geometry(file, model.geometry);
   write_material(file, model.discretisation.material);
-  write_scheme(file, model);
-  write_report(file, model.report);
   write_provenance(file, provenance);
-  write_matrices(file, model, progress);
+  if (!rigid) {
+    file.set_attribute("/", "codec", kArchiveCodec);
+    file.set_attribute("/", "precision",
+                       model.precision == Precision::float32 ? "float32" : "float64");
+    write_scheme(file, model);
+    write_report(file, model.report);
+    write_matrices(file, model, progress);
+  }
   file.close();
   if (progress) progress("digest", 0);
   seal_archive(pending.temporary_path());

@@ -283,8 +283,10 @@ bool single_precision(const PrecomputeOptions& options) {
 BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
                      const Progress& progress) {
   BodyModel model;
+  model.kind = options.kind;
   model.geometry = std::move(geometry);
   model.discretisation = options.discretisation;
+  if (options.kind == ModelKind::rigid) return model;
   model.precision = options.precision;
   model.report.lam =
       traversal_steps(model.geometry, options.discretisation.material, options.discretisation.dt);
@@ -306,6 +308,7 @@ BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
 }
 
 MemoryEstimate precompute_memory(std::size_t nodes, const PrecomputeOptions& options) {
+  if (options.kind == ModelKind::rigid) return {};
   const Scheme& scheme = options.discretisation.scheme;
   const LaneLayout layout(scheme, options.discretisation.history_length);
   const double square = 9.0 * static_cast<double>(nodes) * static_cast<double>(nodes);

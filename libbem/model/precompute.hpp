@@ -7,6 +7,7 @@
 namespace bem {
 
 struct PrecomputeOptions {
+  ModelKind kind = ModelKind::dynamic;  ///< rigid: nothing below but the material counts
   Discretisation discretisation;
   Precision precision = Precision::float32;
   double window = 0;  ///< 0: the weakest that keeps the measured growth at or below 1
