@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "common/cli.hpp"
+#include "common/suggest_option.hpp"
 #include "kernels/scheme.hpp"
 #include "mesh/describe.hpp"
 
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <numeric>
 
 #include <CLI/CLI.hpp>
 
@@ -69,36 +69,6 @@ void add_options(CLI::App& app, Typed& t) {
   app.add_flag("--json", o.json, "with --info: as JSON");
   app.add_option("--verify", t.verify, "check an archive: exit code 0 or 4");
   app.add_option("--diff", t.diff, "compare two archives: exit code 0 (equal) or 1")->expected(2);
-}
-
-/// Number of single-character edits that make one text of the other.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t(0));
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-    }
-  }
-  return row[b.size()];
-}
-
-/// "; did you mean --threads?", or nothing if no option is similar.
-std::string suggestion(const CLI::App& app, const std::string& typed) {
-  std::string best;
-  std::size_t best_distance = 4;
-  const std::string name = typed.substr(0, typed.find('='));
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& known : option->get_lnames()) {
-      const std::size_t distance = edit_distance(name, "--" + known);
-      if (distance >= best_distance) continue;
-      best_distance = distance;
-      best = "--" + known;
-    }
-  return best.empty() ? "; run with --help for the options" : "; did you mean " + best + "?";
 }
 
 double number_in(const std::string& option, double value, double lowest, double highest) {
@@ -221,7 +191,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     const std::string first = extras.empty() ? "" : extras.front();
     if (first.rfind("-", 0) != 0)
       refuse("unexpected argument \"" + first + "\"; one mesh and one material file are enough");
-    refuse("unknown option " + first + suggestion(app, first));
+    refuse("unknown option " + first + suggest_option(app, first));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success)) refuse(e.what());
     app.exit(e);

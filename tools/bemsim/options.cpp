@@ -2,8 +2,9 @@
 
 #include "base/error.hpp"
 #include "common/cli.hpp"
+#include "common/suggest_option.hpp"
 #include "mesh/describe.hpp"
-#include "scene/json_reader.hpp"
+#include "scene/location.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,15 +57,6 @@ void add_options(CLI::App& app, Typed& t) {
   app.add_option("--log-file", o.log_file, "file for all messages");
 }
 
-/// "; did you mean --threads?", or a hint at --help if no option is similar.
-std::string suggestion(const CLI::App& app, const std::string& typed) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  const std::string nearest = nearest_name(typed.substr(0, typed.find('=')), names);
-  return nearest.empty() ? "; run with --help for the options" : "; did you mean " + nearest + "?";
-}
-
 void parse(CLI::App& app, int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
@@ -73,7 +65,7 @@ void parse(CLI::App& app, int argc, const char* const* argv) {
     const std::string first = extras.empty() ? "" : extras.front();
     if (first.rfind('-', 0) != 0)
       refuse("unexpected argument " + in_quotes(first) + "; one scene is enough");
-    refuse("unknown option " + printable(first) + suggestion(app, first));
+    refuse("unknown option " + printable(first) + suggest_option(app, first));
   }
 }
 

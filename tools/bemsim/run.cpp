@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -146,11 +145,7 @@ class Run {
 
   void write_stats(const std::string& outcome) {
     if (!stats_file_) return;
-    std::ofstream file(stats_file_->temporary_path());
-    file << statistics_.json(plan_, *simulation_, timer_, outcome).dump(2) << "\n";
-    if (!file.flush())
-      throw Error(ErrorCode::resources, "the statistics cannot be written: is the disk full?");
-    stats_file_->commit();
+    stats_file_->commit(statistics_.json(plan_, *simulation_, timer_, outcome).dump(2) + "\n");
   }
 
   void report(const std::string& outcome) {

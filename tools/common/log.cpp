@@ -31,10 +31,15 @@ void Log::detail(const std::string& text) {
 
 void Log::print(const char* kind, const std::string& text, bool shown) {
   const std::lock_guard lock(mutex_);
-  if (file_.is_open()) file_ << kind << text << std::endl;
-  if (!shown) return;
-  erase_status();
-  std::cerr << kind << text << "\n" << status_ << std::flush;
+  if (shown) {
+    erase_status();
+    std::cerr << kind << text << "\n" << status_ << std::flush;
+  }
+  if (file_.is_open() && !(file_ << kind << text << std::endl)) {
+    file_.close();
+    erase_status();
+    std::cerr << "warning: the log file cannot be written any more\n" << status_ << std::flush;
+  }
 }
 
 bool Log::shows_status() const {

@@ -1,11 +1,11 @@
 // Makes a matrix archive of a rubber ball, as bemprecomp does, and reads it back.
+#include <iostream>
+
 #include <archive/archive_reader.hpp>
 #include <archive/archive_writer.hpp>
 #include <dynamics/simulation.hpp>
 #include <mesh/shapes.hpp>
 #include <model/precompute.hpp>
-
-#include <iostream>
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
