@@ -1,6 +1,7 @@
 #include "common/log.hpp"
 
 #include "base/error.hpp"
+#include "scene/location.hpp"
 
 #include <iostream>
 
@@ -29,7 +30,9 @@ void Log::detail(const std::string& text) {
   print("detail: ", text, verbosity_ == Verbosity::verbose);
 }
 
-void Log::print(const char* kind, const std::string& text, bool shown) {
+void Log::print(const char* kind, const std::string& message, bool shown) {
+  constexpr std::size_t kLongest = 10000;
+  const std::string text = printable(message, kLongest);  // names of files may hold anything
   const std::lock_guard lock(mutex_);
   if (shown) {
     erase_status();
