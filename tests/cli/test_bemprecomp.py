@@ -94,7 +94,8 @@ class Usage(CliCase):
     def test_wrong_command_lines(self):
         wrong = [
             (["--dt", "0"], "--dt"), (["--dt", "-1"], "--dt"), (["--dt", "nan"], "--dt"),
-            (["--dt", "inf"], "--dt"), (["--dt", "x"], "--dt"), (["--dt", "1e-12"], "--dt"),
+            (["--dt", "inf"], "--dt"), (["--dt", "x"], '--dt: "x" is not a number'),
+            (["--dt"], "--dt needs a value"), (["--diff", "a.bem"], "--diff needs 2 values"), (["--dt", "1e-12"], "--dt"),
             (["--scheme", "rk4"], "radau2"), (["--scheme", "theta:2"], "theta"),
             (["--window", "0"], "--window"), (["--window", "1.5"], "--window"),
             (["--window", "off"], "--window"),
@@ -117,7 +118,7 @@ class Usage(CliCase):
             with self.subTest(arguments=arguments):
                 base = ["sphere.obj", "rubber.json", "-o", "a.bem"]
                 dt = [] if any(a.startswith("--dt") for a in arguments) else ["--dt", "0.01"]
-                self.assert_error(self.run_tool(*base, *dt, *arguments, code=2), part)
+                self.assert_error(self.run_tool(*dt, *base, *arguments, code=2), part)
         for arguments in [[], ["sphere.obj"], ["sphere.obj", "rubber.json", "--dt", "1"],
                           ["--info"], ["--diff", "a"], ["--info", "a", "--verify", "a"]]:
             with self.subTest(arguments=arguments):
@@ -139,6 +140,7 @@ class Usage(CliCase):
                        "--stats", "--force", "--quiet", "--verbose", "--log-file", "--version",
                        "--info", "--json", "--verify", "--diff"]:
             self.assertIn(option, text)
+        self.assertLessEqual(max(len(line) for line in text.splitlines()), 100)
 
     def test_overwriting_needs_force(self):
         (self.folder / "a.bem").write_text("mine")

@@ -80,6 +80,8 @@ class Run {
     simulation_ = std::make_unique<Simulation>(plan.scene, source);
     check_interrupt();
     bar_.finish();
+    log_.detail(bytes_text(static_cast<double>(simulation_->matrix_bytes())) +
+                " of matrices from " + count_text(simulation_->archives(), "archive"));
     prepare_output_directory(options.output,
                              options.force ? ExistingOutput::replace : ExistingOutput::refuse);
     writers_ = make_writers(plan, options.output);
