@@ -126,17 +126,24 @@ class Archives(DamageCase):
             "version": 1, "time_step": 0.01, "duration": 0.1, "bodies": [{"name": "ball", "archive": "bad.bem"}]}))
 
     def check_refused(self, *parts):
-        for command in ([BEMPRECOMP, "--info", "bad.bem"], [BEMPRECOMP, "--info", "bad.bem", "--json"],
-                        [BEMPRECOMP, "--verify", "bad.bem"], [BEMPRECOMP, "--diff", "a.bem", "bad.bem"]):
-            self.assert_refused(self.run_any(*command), 4, "bad.bem", *parts)
-        for end in (["--check"], ["-o", "out"]):
-            self.assert_refused(self.run_any(BEMSIM, "scene.json", *end), 4, "scene.json:", "/bodies/0/archive",
-                                "bad.bem", *parts)
-        self.assertFalse((self.folder / "out").exists())
+        for option in ("--info", "--verify"):
+            self.assert_refused(self.run_any(BEMPRECOMP, option, "bad.bem"), 4, "bad.bem", *parts)
+        self.check_refused_in_scene("--check", parts=parts)
+
+    def check_refused_in_scene(self, *options, parts=()):
+        self.assert_refused(self.run_any(BEMSIM, "scene.json", *options), 4, "scene.json:", "/bodies/0/archive",
+                            "bad.bem", *parts)
 
     def check_bytes(self, content, *parts):
         (self.folder / "bad.bem").write_bytes(content)
         self.check_refused(*parts)
+
+    def test_every_command(self):
+        (self.folder / "bad.bem").write_bytes(self.good[:-5])
+        for arguments in (["--info", "bad.bem", "--json"], ["--diff", "a.bem", "bad.bem"], ["--diff", "bad.bem", "a.bem"]):
+            self.assert_refused(self.run_any(BEMPRECOMP, *arguments), 4, "bad.bem", "damaged")
+        self.check_refused_in_scene("-o", "out", parts=["damaged"])
+        self.assertFalse((self.folder / "out").exists())
 
     def test_truncated(self):
         size = len(self.good)
