@@ -75,6 +75,9 @@ void set_up_help(CLI::App& app, const std::string& usage) {
   app.set_version_flag("--version", version_text(), "print the version");
   app.set_help_flag("-h,--help", "print this help");
   app.formatter(std::make_shared<HelpFormatter>(usage));
+  app.footer(
+      "Exit codes: 0 ok, 1 internal error, 2 usage, 3 invalid input, 4 archive, 5 numerical failure,\n"
+      "6 memory, disk or permission, 130 and 143 interrupted");
 }
 
 bool parse_command_line(CLI::App& app, int argc, const char* const* argv,
