@@ -12,8 +12,4 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 
 # BLIS in its single-threaded build: the project's own tiles supply the parallelism, so that
 # results do not depend on the number of threads (docs/performance.md compares the choices).
-find_library(BLIS_LIBRARY NAMES blis PATH_SUFFIXES blis-serial blis-pthread blis-openmp REQUIRED)
-find_path(BLIS_INCLUDE_DIR NAMES cblas.h PATH_SUFFIXES blis-serial blis-pthread blis-openmp REQUIRED)
-add_library(bem_blas INTERFACE)
-target_include_directories(bem_blas SYSTEM INTERFACE ${BLIS_INCLUDE_DIR})
-target_link_libraries(bem_blas INTERFACE ${BLIS_LIBRARY})
+find_package(BLIS REQUIRED)

@@ -15,14 +15,14 @@ using DenseMatrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 template <class T>
 class Lu {
  public:
-  /// Factorises `a` in its own memory, 2/3 n^3 multiply-adds (n x 128 elements of workspace).
+  /// Factorises `a` in its own memory, n^3/3 multiply-adds (n x 128 elements of workspace).
   /// Throws ErrorCode::numerical if a pivot is zero or not finite.
   explicit Lu(DenseMatrix<T>&& a);
 
   /// b := a^{-1} b in place, n^2 multiply-adds per column.
   void solve(DenseMatrix<T>& b) const;
 
-  /// The inverse, in the memory of the factors; 4/3 n^3 multiply-adds.
+  /// The inverse, in the memory of the factors; 2/3 n^3 multiply-adds.
   DenseMatrix<T> invert() &&;
 
   /// Largest column sum of |a|, for a condition number.

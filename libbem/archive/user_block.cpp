@@ -35,6 +35,8 @@ FileDescriptor open_archive(const std::string& path, std::uint64_t& size) {
   FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file && (errno == ENOENT || errno == ENOTDIR))
     refuse(path, "no such archive; bemprecomp makes one");
+  if (!file && (errno == ELOOP || errno == ENAMETOOLONG))
+    refuse(path, std::string("no such archive (") + std::strerror(errno) + ")");
   if (!file)
     throw Error(ErrorCode::resources,
                 path + ": the archive cannot be read (" + std::strerror(errno) + ")");

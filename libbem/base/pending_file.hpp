@@ -5,7 +5,9 @@
 namespace bem {
 
 /// A file that is written under a temporary name beside its final one, so that a file of the final
-/// name is always complete. Without commit() the temporary file goes away with the object.
+/// name is always complete. Without commit() the temporary file goes away with the object; what a
+/// process that was killed has left behind goes away when the next one writes the same file. A
+/// device or a pipe is written directly.
 class PendingFile {
  public:
   /// Creates the empty temporary file. Throws ErrorCode::resources if the folder does not exist or
@@ -21,8 +23,12 @@ class PendingFile {
   /// name. Throws ErrorCode::resources.
   void commit();
 
+  /// Writes the whole file, then commit(). Throws ErrorCode::resources.
+  void commit(const std::string& contents);
+
  private:
   std::string path_, temporary_;
+  bool exists_ = false;  ///< the temporary file is there and has to be removed
 };
 
 /// Throws ErrorCode::resources if the folder of `path` has less than `bytes` of free space.

@@ -264,8 +264,10 @@ void compute_matrices(BodyModel& model, const Progress& progress) {
   model.body_force.assign(lanes, Eigen::MatrixXd(n, 6));
   model.initial_body_force.assign(components, Eigen::MatrixXcd(n, 6));
   InitialSystem initial;
-  initial.h.assign(components, DenseMatrix<Complex>(n, n));
-  initial.g.assign(components, DenseMatrix<Complex>(n, n));
+  for (std::size_t c = 0; c < components; ++c) {  // not copied: pages are touched by the assembly
+    initial.h.emplace_back(n, n);
+    initial.g.emplace_back(n, n);
+  }
   StaticSystem at_rest{DenseMatrix<double>(n, n), DenseMatrix<double>(n, n)};
   assemble<T, Stored>(assembler, model, initial, at_rest, progress);
   compute_balance(model, std::move(at_rest), progress);

@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::size_t kPage = 4096;              // bytes that a disk writes anyway
 constexpr std::size_t kVerticesPerChunk = 1024;  // 24 KiB
+constexpr std::size_t kBookkeeping = 1 << 16;    // of HDF5 for a frame, at most
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double), "vectors are stored without gaps");
 static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t), "triangles are stored without gaps");
@@ -39,7 +40,10 @@ Hdf5Dims chunk(const Hdf5Dims& extents) {
 }  // namespace
 
 Hdf5Trajectory::Hdf5Trajectory(const std::string& directory, std::vector<TrajectoryBody> bodies)
-    : bodies_((check_bodies(bodies), std::move(bodies))), file_(create_file(directory)) {
+    : bodies_((check_bodies(bodies), std::move(bodies))),
+      file_(create_file(directory)),
+      reserve_(file_.path()),
+      frame_bytes_(kBookkeeping) {
   file_.set_attribute("/", "format", "bem trajectory");
   file_.set_attribute("/", "version", 1);
   create_series("/time", {}, "s");
@@ -61,7 +65,12 @@ void Hdf5Trajectory::create_series(const std::string& path, const Hdf5Dims& exte
                                    const char* units) {
   Hdf5Dims dims{0};
   dims.insert(dims.end(), extents.begin(), extents.end());
-  file_.create_dataset(path, Hdf5Type::float64, dims, {chunk(extents), true});
+  const Hdf5Dims chunks = chunk(extents);
+  std::size_t bytes = chunks[0] * sizeof(double);
+  for (std::size_t i = 0; i < extents.size(); ++i)
+    bytes *= (extents[i] + chunks[i + 1] - 1) / chunks[i + 1] * chunks[i + 1];
+  frame_bytes_ += bytes;
+  file_.create_dataset(path, Hdf5Type::float64, dims, {chunks, true});
   file_.set_attribute(path, "units", units);
 }
 
@@ -73,6 +82,7 @@ void Hdf5Trajectory::append(const std::string& path, const double* values) {
 void Hdf5Trajectory::write(const Frame& frame) {
   check_frame(bodies_, frame);
   require(frame.index == frames_, "frames are written in their order");
+  reserve_.ensure(frame_bytes_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyFrame& body = frame.bodies[i];
     const std::string path = group(bodies_[i]);
@@ -91,6 +101,7 @@ void Hdf5Trajectory::write(const Frame& frame) {
 
 void Hdf5Trajectory::close() {
   file_.close();
+  reserve_.release();
 }
 
 }  // namespace bem

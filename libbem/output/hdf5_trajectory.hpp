@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/disk_reserve.hpp"
 #include "base/hdf5.hpp"
 #include "output/frame.hpp"
 
@@ -24,7 +25,8 @@ inline constexpr const char* kTrajectoryFile = "trajectory.h5";
 ///
 /// Other processes can read the file while it is written, if they open it for that (h5py:
 /// swmr=True); a frame is complete when /time has it. The same way opens a file whose writer was
-/// killed; after close() or the writer's destruction it opens like any other.
+/// killed; after close() or the writer's destruction it opens like any other. Room for a frame is
+/// reserved before it is written, so that the frames before it survive a full disk.
 class Hdf5Trajectory : public FrameWriter {
  public:
   /// Creates the file in an existing directory, overwriting an old one. Throws
@@ -41,7 +43,9 @@ class Hdf5Trajectory : public FrameWriter {
 
   std::vector<TrajectoryBody> bodies_;
   Hdf5File file_;
-  std::size_t frames_ = 0;  ///< written so far
+  DiskReserve reserve_;
+  std::size_t frame_bytes_ = 0;  ///< that a frame adds to the file at most
+  std::size_t frames_ = 0;       ///< written so far
 };
 
 }  // namespace bem

@@ -1,3 +1,4 @@
+#include "base/nearest_name.hpp"
 #include "scene/scene_parts.hpp"
 
 #include <algorithm>

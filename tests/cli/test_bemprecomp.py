@@ -8,24 +8,25 @@ import subprocess
 import time
 import unittest
 
-from cli_case import BEMPRECOMP, DATA, CliCase
+from cli_case import BEMPRECOMP, BEMSHAPE, DATA, CliCase
 
 INPUTS = ["rubber.json", "sphere.obj"]
 
-# What the message about each bad mesh must name.
+# What the message about each bad mesh must say after the file's name: the first bad element, and
+# how many there are. What is no mesh file at all is refused at its first bad line.
 BAD_MESHES = {
-    "inconsistent_orientation": "edge",
-    "index_out_of_range": ":",
-    "no_triangle": "no triangle",
-    "nonfinite": "finite",
-    "nonmanifold_edge": "edge",
-    "nonmanifold_vertex": "vertex",
-    "open_boundary": "edge",
-    "repeated_vertex": ":",
-    "short_face": ":",
-    "unparsable_number": ":",
-    "zero_area": "triangle",
-    "zero_volume": "volume",
+    "inconsistent_orientation": r": inconsistent orientation: .* edge 0-2 of triangle 0 .* 3 such edges in all",
+    "index_out_of_range": r":7: index out of range: triangle 1 .* 2 such triangles in all",
+    "no_triangle": r": no triangle at all",
+    "nonfinite": r":3: non-finite coordinate: vertex 1 .* 2 such vertices in all",
+    "nonmanifold_edge": r": non-manifold edge: edge 1-0 of triangle 0 .* 4 triangles .* 1 such edge in all",
+    "nonmanifold_vertex": r": non-manifold vertex: vertex 0 .* 1 such vertex in all",
+    "open_boundary": r": open boundary: edge 2-1 of triangle 0 .* 3 such edges in all",
+    "repeated_vertex": r": zero-area triangle: triangle 4 .* 2 such triangles in all",
+    "short_face": r":7: a face needs at least three vertices",
+    "unparsable_number": r':4: "1\.o" is not a number',
+    "zero_area": r": zero-area triangle: triangle 1 .* 2 such triangles in all",
+    "zero_volume": r": zero volume: the part with triangle 0 .* 1 such part in all",
 }
 
 
@@ -36,7 +37,8 @@ class Inputs(CliCase):
         for mesh in meshes:
             with self.subTest(mesh=mesh.name):
                 done = self.run_tool(mesh, "rubber.json", "-o", "a.bem", "--dt", 0.01, code=3)
-                self.assert_error(done, mesh.name, BAD_MESHES[mesh.stem])
+                self.assert_error(done)
+                self.assertRegex(done.stderr, f"^error: .*{mesh.name}{BAD_MESHES[mesh.stem]}")
         self.assertEqual(self.files(), INPUTS)
 
     def test_missing_or_broken_inputs(self):
@@ -66,18 +68,34 @@ class Inputs(CliCase):
         self.assertEqual(info["provenance"]["mesh_scale"], 2)
 
     def test_mesh_warnings_do_not_stop(self):
-        text = (self.folder / "sphere.obj").read_text()
-        flipped = re.sub(r"^f (\d+) (\d+) (\d+)$", r"f \1 \3 \2", text, flags=re.M)
-        self.assertNotEqual(text, flipped)
-        (self.folder / "sphere.obj").write_text(flipped)
-        self.assertRegex(self.precompute("-q").stderr, r"^warning: sphere\.obj: .*outward")
+        sphere = (self.folder / "sphere.obj").read_text()
+        count = len(re.findall(r"^v ", sphere, flags=re.M))
+        shifted = re.sub(r"^v (\S+)", lambda m: f"v {float(m[1]) + 0.15}", sphere, flags=re.M)
+        faces = re.sub(r"\d+", lambda m: str(int(m[0]) + count), shifted[shifted.index("\nf "):])
+        run_shape = [BEMSHAPE, "box", "--divisions", "1", "1", "1", "--size", "1", "1"]
+        subprocess.run([*run_shape, "0.005", "-o", self.folder / "thin.obj"], check=True)
+        meshes = {
+            "inward": (re.sub(r"^f (\d+) (\d+) (\d+)$", r"f \1 \3 \2", sphere, flags=re.M), "outward"),
+            "crossing": (shifted[:shifted.index("\nf ")] + "\n" + sphere + faces, "the surface intersects itself: 16 pairs"),
+            "thin": ((self.folder / "thin.obj").read_text(), "very thin triangles .* 8 triangles, first triangle 0"),
+        }
+        for name, (text, message) in meshes.items():
+            with self.subTest(name):
+                self.assertNotEqual(text, sphere)
+                (self.folder / "sphere.obj").write_text(text)
+                lines = self.precompute("-q", "--force", "--window", "1").stderr.splitlines()
+                about_mesh = [line for line in lines if line.startswith("warning: sphere.obj: ")]
+                self.assertRegex(about_mesh[-1], message)
+                self.assertEqual(len(about_mesh), 2 if name == "crossing" else 1, lines)
+                self.run_tool("--verify", "a.bem")
 
 
 class Usage(CliCase):
     def test_wrong_command_lines(self):
         wrong = [
             (["--dt", "0"], "--dt"), (["--dt", "-1"], "--dt"), (["--dt", "nan"], "--dt"),
-            (["--dt", "inf"], "--dt"), (["--dt", "x"], "--dt"), (["--dt", "1e-12"], "--dt"),
+            (["--dt", "inf"], "--dt"), (["--dt", "x"], '--dt: "x" is not a number'),
+            (["--dt"], "--dt needs a value"), (["--diff", "a.bem"], "--diff needs 2 values"), (["--dt", "1e-12"], "--dt"),
             (["--scheme", "rk4"], "radau2"), (["--scheme", "theta:2"], "theta"),
             (["--window", "0"], "--window"), (["--window", "1.5"], "--window"),
             (["--window", "off"], "--window"),
@@ -100,7 +118,7 @@ class Usage(CliCase):
             with self.subTest(arguments=arguments):
                 base = ["sphere.obj", "rubber.json", "-o", "a.bem"]
                 dt = [] if any(a.startswith("--dt") for a in arguments) else ["--dt", "0.01"]
-                self.assert_error(self.run_tool(*base, *dt, *arguments, code=2), part)
+                self.assert_error(self.run_tool(*dt, *base, *arguments, code=2), part)
         for arguments in [[], ["sphere.obj"], ["sphere.obj", "rubber.json", "--dt", "1"],
                           ["--info"], ["--diff", "a"], ["--info", "a", "--verify", "a"]]:
             with self.subTest(arguments=arguments):
@@ -122,6 +140,7 @@ class Usage(CliCase):
                        "--stats", "--force", "--quiet", "--verbose", "--log-file", "--version",
                        "--info", "--json", "--verify", "--diff"]:
             self.assertIn(option, text)
+        self.assertLessEqual(max(len(line) for line in text.splitlines()), 100)
 
     def test_overwriting_needs_force(self):
         (self.folder / "a.bem").write_text("mine")
@@ -211,6 +230,38 @@ class Resources(CliCase):
         done = self.precompute(code=6, preexec_fn=limit, restore_signals=False)
         self.assert_error(done, "a.bem")
         self.assertEqual(self.files(), INPUTS)
+
+    def test_streams_that_are_full(self):
+        self.precompute("--history", "2", "--window", "1")
+        with open("/dev/full", "w") as full:
+            for arguments in [["--info", "a.bem"], ["--verify", "a.bem"], ["--help"], ["--version"]]:
+                with self.subTest(arguments=arguments):
+                    done = subprocess.run([BEMPRECOMP, *arguments], cwd=self.folder, stdout=full,
+                                          stderr=subprocess.PIPE, text=True)
+                    self.assertEqual(done.returncode, 6)
+                    self.assertEqual(done.stderr, "error: standard output cannot be written\n")
+        done = self.precompute("--force", "--stats", "/dev/full", code=6)
+        self.assertRegex(done.stderr, "error: /dev/full: cannot be written")
+        done = self.precompute("--force", "--log-file", "/dev/full", "-q")
+        self.assertEqual(done.stderr, "warning: the log file cannot be written any more\n")
+        done = self.precompute("--force", "-q", "--stats", "/dev/stdout")
+        self.assertEqual(json.loads(done.stdout)["body"]["nodes"], 42)
+
+    def test_what_a_killed_run_leaves_is_removed_by_the_next(self):
+        self.sphere(3)
+        process = subprocess.Popen(
+            [BEMPRECOMP, "sphere.obj", "rubber.json", "-o", "a.bem", "--dt", "0.001", "--stats",
+             "s.json", "-v"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        for line in process.stderr:
+            if line == "detail: assembly\n":
+                break
+        process.kill()
+        process.wait()
+        process.stderr.close()
+        self.assertEqual(len(self.files()), len(INPUTS) + 1, self.files())
+        self.sphere(1)
+        self.precompute("--stats", "s.json")
+        self.assertEqual(self.files(), sorted([*INPUTS, "a.bem", "s.json"]))
 
     def test_too_large_a_problem_is_refused_before_it_starts(self):
         start = time.monotonic()

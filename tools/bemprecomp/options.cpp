@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "common/cli.hpp"
+#include "common/command_line.hpp"
 #include "kernels/scheme.hpp"
 #include "mesh/describe.hpp"
 
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <numeric>
 
 #include <CLI/CLI.hpp>
 
@@ -31,74 +31,68 @@ struct Typed {
   std::optional<double> codec_tolerance, compression_ratio;
 };
 
-void add_options(CLI::App& app, Typed& t) {
+void add_matrix_options(CLI::App& app, Typed& t) {
   Options& o = t.options;
-  app.add_option("MESH", o.mesh, "closed triangle mesh in any format that assimp reads");
-  app.add_option("MATERIAL", o.material, "material JSON");
-  app.add_option("-o,--output", o.output, "archive to write (BODY.bem)");
-  app.add_option("--dt", o.dt, "time step [s]; default: the material's \"time_step\"");
-  app.add_option("--scheme", o.scheme, "radau2, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2)");
+  app.option_defaults()->group("Matrices");
+  app.add_option("--dt", o.dt, "time step [s]; default: the material's \"time_step\"")
+      ->type_name("S");
+  app.add_option("--scheme", o.scheme, "radau2, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2)")
+      ->type_name("NAME");
   app.add_option("--window", t.window,
                  "factor 0 < q <= 1 on the weights per lag, 1 for none; auto: the weakest that "
-                 "makes the measured growth <= 1 (auto)");
-  app.add_option("--model", t.model, "dynamic; static and rigid are not supported yet (dynamic)");
+                 "makes the measured growth <= 1 (auto)")
+      ->type_name("q");
+  app.add_option("--model", t.model, "dynamic; static and rigid are not supported yet (dynamic)")
+      ->type_name("NAME");
   app.add_option("--history-tol", o.history_tolerance,
-                 "length of the history from the size of the weights beyond it");
+                 "length of the history from the size of the weights beyond it")
+      ->type_name("X");
   app.add_option("--history", o.history,
                  "length of the history in steps; default: from the time that shear waves need to "
-                 "cross the body");
+                 "cross the body")
+      ->type_name("N");
   app.add_option("--quadrature-tol", o.quadrature_tolerance,
-                 "relative error aimed at by the spatial quadrature (1e-6)");
-  app.add_option("--codec", t.codec, "none; haar and lowrank are not supported yet (none for now)");
-  app.add_option("--codec-tol", t.codec_tolerance, "relative error aimed at by the codec");
-  app.add_option("--compression-ratio", t.compression_ratio,
-                 "entries before / entries kept (haar)");
-  app.add_option("--precision", t.precision, "float32 or float64 matrices (float32)");
+                 "relative error aimed at by the spatial quadrature (1e-6)")
+      ->type_name("X");
+  app.add_option("--codec", t.codec, "none; haar and lowrank are not supported yet (none for now)")
+      ->type_name("NAME");
+  app.add_option("--codec-tol", t.codec_tolerance, "relative error aimed at by the codec")
+      ->type_name("X");
+  app.add_option("--compression-ratio", t.compression_ratio, "entries before / entries kept (haar)")
+      ->type_name("R");
+  app.add_option("--precision", t.precision, "float32 or float64 matrices (float32)")
+      ->type_name("NAME");
   app.add_option("--corner-angle-deg", t.corner_angle,
-                 "double nodes along sharp edges: none; angles are not supported yet (none)");
+                 "double nodes along sharp edges: none; angles are not supported yet (none)")
+      ->type_name("A");
   app.add_option("--damping", t.damping, "material damping: not supported yet")->expected(0, -1);
-  app.add_option("--mesh-scale", o.mesh_scale, "factor on the coordinates of the mesh (1)");
-  app.add_option("--threads", o.threads, "worker threads (all cores)");
-  app.add_flag("--dry-run", o.dry_run, "print memory, time and archive size expected, then stop");
-  app.add_option("--stats", o.stats, "JSON file for time and memory by phase, sizes and errors");
+  app.add_option("--mesh-scale", o.mesh_scale, "factor on the coordinates of the mesh (1)")
+      ->type_name("F");
+}
+
+void add_options(CLI::App& app, Typed& t) {
+  Options& o = t.options;
+  app.add_option("MESH", o.mesh, "closed triangle mesh in any format that assimp reads")
+      ->type_name("");
+  app.add_option("MATERIAL", o.material, "material JSON")->type_name("");
+  add_matrix_options(app, t);
+  app.option_defaults()->group("Run");
+  app.add_option("-o,--output", o.output, "archive to write")->type_name("BODY.bem");
   app.add_flag("--force", o.force, "overwrite an existing archive");
+  app.add_option("--threads", o.threads, "worker threads (all cores)")->type_name("N");
+  app.add_flag("--dry-run", o.dry_run, "print memory, time and archive size expected, then stop");
+  app.add_option("--stats", o.stats, "JSON file for time and memory by phase, sizes and errors")
+      ->type_name("FILE");
   app.add_flag("-q,--quiet", o.quiet, "only warnings and errors");
   app.add_flag("-v,--verbose", o.verbose, "also details");
-  app.add_option("--log-file", o.log_file, "file for all messages");
-  app.add_option("--info", t.info, "print what is in an archive");
+  app.add_option("--log-file", o.log_file, "file for all messages")->type_name("FILE");
+  app.option_defaults()->group("Archives");
+  app.add_option("--info", t.info, "print what is in an archive")->type_name("A.bem");
   app.add_flag("--json", o.json, "with --info: as JSON");
-  app.add_option("--verify", t.verify, "check an archive: exit code 0 or 4");
-  app.add_option("--diff", t.diff, "compare two archives: exit code 0 (equal) or 1")->expected(2);
-}
-
-/// Number of single-character edits that make one text of the other.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t(0));
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-    }
-  }
-  return row[b.size()];
-}
-
-/// "; did you mean --threads?", or nothing if no option is similar.
-std::string suggestion(const CLI::App& app, const std::string& typed) {
-  std::string best;
-  std::size_t best_distance = 4;
-  const std::string name = typed.substr(0, typed.find('='));
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& known : option->get_lnames()) {
-      const std::size_t distance = edit_distance(name, "--" + known);
-      if (distance >= best_distance) continue;
-      best_distance = distance;
-      best = "--" + known;
-    }
-  return best.empty() ? "; run with --help for the options" : "; did you mean " + best + "?";
+  app.add_option("--verify", t.verify, "check an archive: exit code 0 or 4")->type_name("A.bem");
+  app.add_option("--diff", t.diff, "compare two archives: exit code 0 (equal) or 1")
+      ->expected(2)
+      ->type_name("A.bem");
 }
 
 double number_in(const std::string& option, double value, double lowest, double highest) {
@@ -207,26 +201,14 @@ std::string Options::canonical_text() const {
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {
   Typed typed;
-  CLI::App app(
-      "Computes the matrices of an elastic body from its surface mesh and material.\n"
-      "  bemprecomp MESH MATERIAL.json -o BODY.bem [options]\n"
-      "  bemprecomp --info A.bem [--json] | --verify A.bem | --diff A.bem B.bem",
-      "bemprecomp");
-  app.set_version_flag("--version", version_text());
+  CLI::App app("Computes the matrices of an elastic body from its surface mesh and material.",
+               "bemprecomp");
+  set_up_help(app,
+              "  bemprecomp MESH MATERIAL.json -o BODY.bem [options]\n"
+              "  bemprecomp --info A.bem [--json] | --verify A.bem | --diff A.bem B.bem\n");
   add_options(app, typed);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ExtrasError& e) {
-    const std::vector<std::string> extras = app.remaining();
-    const std::string first = extras.empty() ? "" : extras.front();
-    if (first.rfind("-", 0) != 0)
-      refuse("unexpected argument \"" + first + "\"; one mesh and one material file are enough");
-    refuse("unknown option " + first + suggestion(app, first));
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success)) refuse(e.what());
-    app.exit(e);
+  if (!parse_command_line(app, argc, argv, "one mesh and one material file are enough"))
     return std::nullopt;
-  }
   return checked(app, typed);
 }
 

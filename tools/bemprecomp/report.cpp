@@ -80,7 +80,7 @@ void print_body(Table& table, const BodyGeometry& g, const Discretisation& d, do
   table.line("material", m.name, ": density ", m.density, " kg/m^3, shear modulus ",
              m.shear_modulus, " Pa, Poisson ratio ", m.poisson_ratio);
   table.line("time", d.scheme.name(), ", dt ", d.dt, " s, history of ", d.history_length,
-             " steps (a shear wave crosses the body in ", lam, ")");
+             " steps (a shear wave crosses the body in ", lam, " steps)");
 }
 
 }  // namespace

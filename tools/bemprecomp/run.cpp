@@ -6,34 +6,15 @@
 #include "report.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 namespace bem {
 namespace {
 
 constexpr double kNoticeableGrowth = 1.0005;
-
-/// The statistics file, created at the start so that a bad path is noticed before the work.
-class StatsFile {
- public:
-  explicit StatsFile(const std::string& path) {
-    if (!path.empty()) file_.emplace(path);
-  }
-
-  void write(const nlohmann::ordered_json& json) {
-    if (!file_) return;
-    std::ofstream(file_->temporary_path()) << json.dump(2) << "\n";
-    file_->commit();
-  }
-
-  bool wanted() const { return file_.has_value(); }
-
- private:
-  std::optional<PendingFile> file_;
-};
 
 std::string short_text(double value) {
   std::ostringstream text;
@@ -116,7 +97,8 @@ int run_precompute(const Options& o, Log& log) {
   if (o.dry_run) return run_dry(plan, log);
   check_memory(plan);
   check_archive_target(o.output, o.force, plan.archive_bytes);
-  StatsFile stats(o.stats);
+  std::optional<PendingFile> stats;  // a bad path is noticed before the work
+  if (!o.stats.empty()) stats.emplace(o.stats);
   log.info(std::to_string(plan.geometry.nodes.vertices.size()) + " nodes, history of " +
            std::to_string(plan.options.discretisation.history_length) + " steps, " +
            bytes_text(plan.memory.peak) + " of memory");
@@ -130,7 +112,7 @@ int run_precompute(const Options& o, Log& log) {
   }
   write_archive(o.output, model, provenance_of(o), o.force, phases.callback());
   phases.finish();
-  if (stats.wanted()) stats.write(stats_json(model, o.output, phases.timer(), warnings));
+  if (stats) stats->commit(stats_json(model, o.output, phases.timer(), warnings).dump(2) + "\n");
   log.info(o.output + ": " + bytes_text(static_cast<double>(std::filesystem::file_size(o.output))) +
            " in " + seconds_text(phases.timer().total_wall_seconds()));
   return 0;

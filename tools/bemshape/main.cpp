@@ -1,14 +1,12 @@
 /// bemshape: writes a closed test body as an OBJ file.
 
 #include "base/error.hpp"
+#include "common/cli.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/shapes.hpp"
 
 #include <cstdint>
-#include <exception>
 #include <functional>
-#include <iostream>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -45,7 +43,7 @@ class CommandLine {
   CommandLine()
       : app_("Writes a closed test body as an OBJ file (lengths in metres).", "bemshape") {
     app_.require_subcommand(1);
-    app_.set_version_flag("--version", std::string("bemshape ") + BEM_VERSION);
+    app_.set_version_flag("--version", bem::version_text());
     app_.option_defaults()->always_capture_default();
     add_round_shapes();
     add_box_shapes();
@@ -56,14 +54,21 @@ class CommandLine {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
       if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app_.exit(e);
-      std::cerr << "error: " << e.what() << "\nRun with --help for the options.\n";
-      return static_cast<int>(bem::ErrorCode::usage);
+      throw bem::Error(bem::ErrorCode::usage, message_of(e) + "; run with --help for the options");
     }
     bem::write_obj(options_.output, generator_(options_));
     return 0;
   }
 
  private:
+  std::string message_of(const CLI::ParseError& e) const {
+    if (!app_.get_subcommands().empty()) return e.what();
+    std::string shapes;
+    for (const CLI::App* shape : app_.get_subcommands(nullptr))
+      shapes += (shapes.empty() ? "" : ", ") + shape->get_name();
+    return "name a shape first, one of " + shapes;
+  }
+
   CLI::App& add_shape(const std::string& name, const std::string& help, Generator generator) {
     CLI::App& shape = *app_.add_subcommand(name, help);
     shape.option_defaults()->always_capture_default();
@@ -144,16 +149,6 @@ class CommandLine {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return CommandLine().run(argc, argv);
-  } catch (const bem::Error& e) {
-    std::cerr << "error: " << e.what() << "\n";
-    return static_cast<int>(e.code());
-  } catch (const std::bad_alloc&) {
-    std::cerr << "error: not enough memory\n";
-    return static_cast<int>(bem::ErrorCode::resources);
-  } catch (const std::exception& e) {
-    std::cerr << "error: " << e.what() << "\n";
-    return static_cast<int>(bem::ErrorCode::internal);
-  }
+  bem::Log log;
+  return bem::run_tool(log, [&] { return CommandLine().run(argc, argv); });
 }

@@ -2,8 +2,9 @@
 
 #include "base/error.hpp"
 #include "common/cli.hpp"
+#include "common/command_line.hpp"
 #include "mesh/describe.hpp"
-#include "scene/json_reader.hpp"
+#include "scene/location.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,51 +31,40 @@ struct Typed {
 
 void add_options(CLI::App& app, Typed& t) {
   Options& o = t.options;
-  app.add_option("SCENE", o.scene, "scene JSON");
-  app.add_option("-o,--output", o.output, "folder for the trajectories");
+  app.add_option("SCENE", o.scene, "scene JSON")->type_name("");
+  app.option_defaults()->group("Output");
+  app.add_option("-o,--output", o.output, "folder for the trajectories")->type_name("OUT_DIR");
+  app.add_flag("--force", o.force, "replace the output of an earlier run");
   app.add_option("--format", t.formats,
                  "comma-separated list of hdf5 and obj (vtp and pc2 are not supported yet); "
                  "default: the scene's, else hdf5")
       ->delimiter(',')
-      ->allow_extra_args(false);
-  app.add_option("--steps", o.steps, "number of time steps; default: the scene's duration");
-  app.add_option("--duration", o.duration, "simulated time [s]; default: the scene's");
-  app.add_option("--every", o.every, "write every N-th step; default: the scene's, else 1");
+      ->allow_extra_args(false)
+      ->type_name("LIST");
+  app.add_option("--every", o.every, "write every N-th step; default: the scene's, else 1")
+      ->type_name("N");
   app.add_option("--fps", o.fps,
-                 "write this many frames per second of simulated time, the nearest steps");
-  app.add_option("--threads", o.threads, "worker threads (all cores)");
+                 "write this many frames per second of simulated time, the nearest steps")
+      ->type_name("F");
+  app.option_defaults()->group("Run");
+  app.add_option("--steps", o.steps, "number of time steps; default: the scene's duration")
+      ->type_name("N");
+  app.add_option("--duration", o.duration, "simulated time [s]; default: the scene's")
+      ->type_name("S");
+  app.add_option("--threads", o.threads, "worker threads (all cores)")->type_name("N");
+  app.add_option("--checkpoint-every", t.checkpoint_every,
+                 "save the state every N steps: not supported yet")
+      ->type_name("N");
+  app.add_flag("--resume", t.resume, "go on with an earlier run: not supported yet");
+  app.add_option("--stats", o.stats, "JSON file for time by phase, iterations, momentum, memory")
+      ->type_name("FILE");
+  app.add_flag("-q,--quiet", o.quiet, "only warnings and errors");
+  app.add_flag("-v,--verbose", o.verbose, "also details");
+  app.add_option("--log-file", o.log_file, "file for all messages")->type_name("FILE");
+  app.option_defaults()->group("Without a simulation");
   app.add_flag("--check", t.check,
                "validate the scene and its archives, print what would be done, then stop");
   app.add_flag("--print-schema", t.print_schema, "print the JSON Schema of scenes, then stop");
-  app.add_option("--checkpoint-every", t.checkpoint_every,
-                 "save the state every N steps: not supported yet");
-  app.add_flag("--resume", t.resume, "go on with an earlier run: not supported yet");
-  app.add_option("--stats", o.stats, "JSON file for time by phase, iterations, momentum, memory");
-  app.add_flag("--force", o.force, "replace the output of an earlier run");
-  app.add_flag("-q,--quiet", o.quiet, "only warnings and errors");
-  app.add_flag("-v,--verbose", o.verbose, "also details");
-  app.add_option("--log-file", o.log_file, "file for all messages");
-}
-
-/// "; did you mean --threads?", or a hint at --help if no option is similar.
-std::string suggestion(const CLI::App& app, const std::string& typed) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  const std::string nearest = nearest_name(typed.substr(0, typed.find('=')), names);
-  return nearest.empty() ? "; run with --help for the options" : "; did you mean " + nearest + "?";
-}
-
-void parse(CLI::App& app, int argc, const char* const* argv) {
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ExtrasError&) {
-    const std::vector<std::string> extras = app.remaining();
-    const std::string first = extras.empty() ? "" : extras.front();
-    if (first.rfind('-', 0) != 0)
-      refuse("unexpected argument " + in_quotes(first) + "; one scene is enough");
-    refuse("unknown option " + printable(first) + suggestion(app, first));
-  }
 }
 
 std::vector<OutputFormat> parse_formats(const std::vector<std::string>& names) {
@@ -135,19 +125,12 @@ Options checked(Typed& t) {
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {
   Typed typed;
-  CLI::App app(
-      "Simulates a scene of deformable bodies and writes their trajectories.\n"
-      "  bemsim SCENE.json -o OUT_DIR [options]",
-      "bemsim");
-  app.set_version_flag("--version", version_text());
+  CLI::App app("Simulates a scene of deformable bodies and writes their trajectories.", "bemsim");
+  set_up_help(app,
+              "  bemsim SCENE.json -o OUT_DIR [options]\n"
+              "  bemsim SCENE.json --check\n");
   add_options(app, typed);
-  try {
-    parse(app, argc, argv);
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success)) refuse(e.what());
-    app.exit(e);
-    return std::nullopt;
-  }
+  if (!parse_command_line(app, argc, argv, "one scene is enough")) return std::nullopt;
   return checked(typed);
 }
 

@@ -157,7 +157,7 @@ void print_plan(std::ostream& out, const Plan& plan) {
   }
   out << "bodies:  " << plan.bodies.size() << " from " << count_text(archives.size(), "archive")
       << ", " << count_text(vertices, "vertex") << "\n";
-  out << "memory:  " << to_text(std::ceil(plan.memory / 1e5) / 10) << " MB\n";
+  out << "memory:  about " << bytes_text(plan.memory) << "\n";
   out << "time:    " << count_text(static_cast<std::size_t>(plan.steps), "step") << " of "
       << to_text(scene.time_step) << " s\n";
   out << "threads: " << thread_count() << "\n";

@@ -10,8 +10,6 @@
 #include "stats.hpp"
 
 #include <algorithm>
-#include <exception>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -82,6 +80,8 @@ class Run {
     simulation_ = std::make_unique<Simulation>(plan.scene, source);
     check_interrupt();
     bar_.finish();
+    log_.detail(bytes_text(static_cast<double>(simulation_->matrix_bytes())) +
+                " of matrices from " + count_text(simulation_->archives(), "archive"));
     prepare_output_directory(options.output,
                              options.force ? ExistingOutput::replace : ExistingOutput::refuse);
     writers_ = make_writers(plan, options.output);
@@ -89,29 +89,17 @@ class Run {
 
   /// Steps to the end, a failure or an interruption, and completes the files in each case.
   void go() {
-    std::string outcome = "complete";
-    std::exception_ptr failure;
     try {
       advance();
-    } catch (const Interrupted&) {
-      outcome = "interrupted";
-      failure = std::current_exception();
-    } catch (const Error&) {
-      outcome = "failed";
-      failure = std::current_exception();
-    }
-    bar_.finish();
-    try {
-      timer_.begin(kOutputPhase);
-      for (const auto& writer : writers_) writer->close();
-      timer_.end();
-      write_stats(outcome);
+    } catch (const Interrupted& e) {
+      finish_early("interrupted");
+      throw Interrupted(e.signal(), "; " + progress());
     } catch (const Error& e) {
-      if (!failure) throw;
-      log_.warning(e.what());  // what came first is the answer
+      finish_early("failed");
+      throw Error(e.code(), std::string(e.what()) + "; " + progress());
     }
-    report(outcome);
-    if (failure) std::rethrow_exception(failure);
+    finish("complete");
+    log_.info("complete: " + progress() + " in " + seconds_text(timer_.total_wall_seconds()));
   }
 
  private:
@@ -144,22 +132,30 @@ class Run {
     statistics_.record_frame();
   }
 
-  void write_stats(const std::string& outcome) {
-    if (!stats_file_) return;
-    std::ofstream file(stats_file_->temporary_path());
-    file << statistics_.json(plan_, *simulation_, timer_, outcome).dump(2) << "\n";
-    if (!file.flush())
-      throw Error(ErrorCode::resources, "the statistics cannot be written: is the disk full?");
-    stats_file_->commit();
+  void finish(const std::string& outcome) {
+    bar_.finish();
+    timer_.begin(kOutputPhase);
+    for (const auto& writer : writers_) writer->close();
+    timer_.end();
+    if (stats_file_)
+      stats_file_->commit(statistics_.json(plan_, *simulation_, timer_, outcome).dump(2) + "\n");
   }
 
-  void report(const std::string& outcome) {
+  /// What came first is the answer: if the files cannot be completed either, that is a warning.
+  void finish_early(const std::string& outcome) {
+    try {
+      finish(outcome);
+    } catch (const Error& e) {
+      log_.warning(e.what());
+    }
+  }
+
+  /// "20 of 50 steps, 21 frames".
+  std::string progress() const {
     const long steps = simulation_->steps();
-    std::string text = outcome + ": " + std::to_string(steps);
-    if (steps != plan_.steps) text += " of " + std::to_string(plan_.steps);
-    text += " steps, " + count_text(static_cast<std::size_t>(statistics_.frames()), "frame") +
-            " in " + seconds_text(timer_.total_wall_seconds());
-    log_.info(text);
+    return (steps == plan_.steps ? "" : std::to_string(steps) + " of ") +
+           count_text(static_cast<std::size_t>(plan_.steps), "step") + ", " +
+           count_text(static_cast<std::size_t>(statistics_.frames()), "frame");
   }
 
   const Plan& plan_;

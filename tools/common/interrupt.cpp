@@ -18,9 +18,11 @@ void remember(int signal) {
 
 }  // namespace
 
-const char* Interrupted::what() const noexcept {
-  return signal_ == SIGTERM ? "interrupted (SIGTERM)" : "interrupted (SIGINT)";
-}
+Interrupted::Interrupted(int signal, const std::string& state)
+    : std::runtime_error(
+          std::string(signal == SIGTERM ? "interrupted (SIGTERM)" : "interrupted (SIGINT)") +
+          state),
+      signal_(signal) {}
 
 void catch_interrupts() {
   for (int signal : {SIGINT, SIGTERM}) {

@@ -1,15 +1,16 @@
 #pragma once
 
-#include <exception>
+#include <stdexcept>
+#include <string>
 
 namespace bem {
 
 /// Thrown by check_interrupt(); run_tool turns it into the exit code 128 + signal.
-class Interrupted : public std::exception {
+class Interrupted : public std::runtime_error {
  public:
-  explicit Interrupted(int signal) : signal_(signal) {}
+  /// `state`: what is left of the work, for the message.
+  explicit Interrupted(int signal, const std::string& state = "");
   int signal() const { return signal_; }
-  const char* what() const noexcept override;
 
  private:
   int signal_;

@@ -1,6 +1,7 @@
 #include "common/log.hpp"
 
 #include "base/error.hpp"
+#include "scene/location.hpp"
 
 #include <iostream>
 
@@ -29,12 +30,19 @@ void Log::detail(const std::string& text) {
   print("detail: ", text, verbosity_ == Verbosity::verbose);
 }
 
-void Log::print(const char* kind, const std::string& text, bool shown) {
+void Log::print(const char* kind, const std::string& message, bool shown) {
+  constexpr std::size_t kLongest = 10000;
+  const std::string text = printable(message, kLongest);  // names of files may hold anything
   const std::lock_guard lock(mutex_);
-  if (file_.is_open()) file_ << kind << text << std::endl;
-  if (!shown) return;
-  erase_status();
-  std::cerr << kind << text << "\n" << status_ << std::flush;
+  if (shown) {
+    erase_status();
+    std::cerr << kind << text << "\n" << status_ << std::flush;
+  }
+  if (file_.is_open() && !(file_ << kind << text << std::endl)) {
+    file_.close();
+    erase_status();
+    std::cerr << "warning: the log file cannot be written any more\n" << status_ << std::flush;
+  }
 }
 
 bool Log::shows_status() const {

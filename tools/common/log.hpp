@@ -28,7 +28,7 @@ class Log {
   void set_status(const std::string& text);
 
  private:
-  void print(const char* kind, const std::string& text, bool shown);
+  void print(const char* kind, const std::string& message, bool shown);
   void erase_status();
 
   std::mutex mutex_;

@@ -1,6 +1,7 @@
 #include "base/error.hpp"
 #include "common/cli.hpp"
 
+#include <iostream>
 #include <new>
 
 namespace bem {
@@ -11,7 +12,9 @@ std::string version_text() {
 
 int run_tool(Log& log, const std::function<int()>& body) {
   try {
-    return body();
+    const int code = body();
+    if (!std::cout.flush()) throw Error(ErrorCode::resources, "standard output cannot be written");
+    return code;
   } catch (const Error& e) {
     log.error(e.what());
     return static_cast<int>(e.code());

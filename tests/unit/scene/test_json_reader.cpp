@@ -92,15 +92,6 @@ TEST_CASE("choices and keys that are misspelt are answered with the nearest") {
           "expected one of the strings moving, static, found \"Static\"; did you mean \"static\"?");
   REQUIRE(complaint("\"no\"", choice) ==
           "expected one of the strings moving, static, found \"no\"");
-
-  REQUIRE(bem::nearest_name("gravty", {"friction", "gravity"}) == "gravity");
-  REQUIRE(bem::nearest_name("garvity", {"gravity"}) == "gravity");
-  REQUIRE(bem::nearest_name("angle", {"axis", "angle_deg"}) == "angle_deg");
-  REQUIRE(bem::nearest_name("an", {"an_axis"}) == "");
-  REQUIRE(bem::nearest_name("mass", {"normal"}) == "");
-  REQUIRE(bem::nearest_name("a", {"b"}) == "");
-  REQUIRE(bem::nearest_name("", {"b"}) == "");
-  REQUIRE(bem::nearest_name("fixedd", {"fields", "fixed"}) == "fixed");
 }
 
 TEST_CASE("a reader refuses the members that nobody asked for") {
