@@ -1,5 +1,7 @@
 #include "model/growth.hpp"
 
+#include <algorithm>
+#include <numeric>
 #include <random>
 
 #include <Eigen/Eigenvalues>
@@ -51,65 +53,126 @@ class FreeRecursion {
   double dt_;
 };
 
-/// Largest Ritz value of a Hessenberg matrix among those whose residual is at most `tolerance`.
-GrowthEstimate largest_ritz_value(const Eigen::MatrixXd& hessenberg, double next,
-                                  double tolerance) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(hessenberg);
-  GrowthEstimate best;
-  best.residual = 1;
-  for (Eigen::Index i = 0; i < hessenberg.rows(); ++i) {
-    const Eigen::VectorXcd v = solver.eigenvectors().col(i);
-    const double residual = std::abs(next * v[v.size() - 1]) / v.norm();
-    const double size = std::abs(solver.eigenvalues()[i]);
-    if (residual <= tolerance && size > best.factor) {
-      best.factor = size;
-      best.residual = residual;
-    }
+/// A space of states and the recursion restricted to it, extended step by step (Arnoldi iteration)
+/// and cut back to its largest motions when it has become big (Krylov-Schur restart).
+class KrylovSpace {
+ public:
+  KrylovSpace(const FreeRecursion& recursion, const Eigen::VectorXd& start, int most)
+      : recursion_(recursion),
+        basis_{start.normalized()},
+        restricted_(Eigen::MatrixXd::Zero(most + 1, most)) {}
+
+  int size() const { return static_cast<int>(basis_.size()) - 1; }
+
+  /// One more step. False if the space is closed: its eigenvalues are then exact.
+  bool extend() {
+    constexpr double kClosed = 1e-12;
+    const int j = size();
+    Eigen::VectorXd w = recursion_.apply(basis_[j]);
+    for (int pass = 0; pass < 2; ++pass)
+      for (int i = 0; i <= j; ++i) {
+        const double c = basis_[i].dot(w);
+        restricted_(i, j) += c;
+        w -= c * basis_[i];
+      }
+    restricted_(j + 1, j) = w.norm();
+    const bool open = restricted_(j + 1, j) > kClosed;
+    if (open) w /= restricted_(j + 1, j);
+    basis_.push_back(std::move(w));
+    return open;
   }
-  return best;
+
+  /// The largest growth factor in the space, and the residual of its motion.
+  GrowthEstimate largest() const {
+    const int m = size();
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(restricted_.topLeftCorner(m, m));
+    GrowthEstimate out;
+    Eigen::Index i = 0;
+    out.factor = solver.eigenvalues().cwiseAbs().maxCoeff(&i);
+    out.residual =
+        std::abs(restricted_(m, m - 1) * solver.eigenvectors().col(i).normalized()[m - 1]);
+    return out;
+  }
+
+  /// Keeps the motions with the `count` largest factors, or one more to keep a pair together.
+  void cut(int count) {
+    const int m = size();
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(restricted_.topLeftCorner(m, m));
+    const Eigen::VectorXd factors = solver.eigenvalues().cwiseAbs();
+    std::vector<int> order(m);
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&factors](int a, int b) { return factors[a] > factors[b]; });
+    std::vector<Eigen::VectorXd> columns;
+    for (int i : order) {
+      if (static_cast<int>(columns.size()) >= count) break;
+      const double imaginary = solver.eigenvalues()[i].imag();
+      if (imaginary < 0) continue;  // the conjugate stands for the pair
+      columns.emplace_back(solver.eigenvectors().col(i).real());
+      if (imaginary > 0) columns.emplace_back(solver.eigenvectors().col(i).imag());
+    }
+    const auto kept = static_cast<Eigen::Index>(columns.size());
+    Eigen::MatrixXd invariant(m, kept);
+    for (Eigen::Index i = 0; i < kept; ++i) invariant.col(i) = columns[i];
+    change_basis(Eigen::HouseholderQR<Eigen::MatrixXd>(invariant).householderQ() *
+                 Eigen::MatrixXd::Identity(m, kept));
+  }
+
+ private:
+  /// `y`: orthonormal basis (size() x kept) of an invariant space of the restricted recursion.
+  void change_basis(const Eigen::MatrixXd& y) {
+    const int m = size();
+    const Eigen::Index kept = y.cols();
+    const Eigen::MatrixXd block = y.transpose() * restricted_.topLeftCorner(m, m) * y;
+    const Eigen::RowVectorXd spike = restricted_(m, m - 1) * y.row(m - 1);
+    restricted_.setZero();
+    restricted_.topLeftCorner(kept, kept) = block;
+    restricted_.row(kept).head(kept) = spike;
+    std::vector<Eigen::VectorXd> basis(kept, Eigen::VectorXd::Zero(basis_[0].size()));
+    for (Eigen::Index i = 0; i < kept; ++i)
+      for (int k = 0; k < m; ++k) basis[i] += y(k, i) * basis_[k];
+    basis.push_back(std::move(basis_[m]));
+    basis_ = std::move(basis);
+  }
+
+  const FreeRecursion& recursion_;
+  std::vector<Eigen::VectorXd> basis_;
+  Eigen::MatrixXd restricted_;
+};
+
+/// A random state after some steps, which fill the history with a consistent motion and damp what
+/// is heavily damped.
+Eigen::VectorXd smoothed_start(const FreeRecursion& recursion, int steps) {
+  Eigen::VectorXd start(recursion.size());
+  std::mt19937 random(1);  // the same numbers on every machine
+  for (Eigen::Index i = 0; i < start.size(); ++i) start[i] = random() / 4294967296.0 - 0.5;
+  for (int i = 0; i < steps; ++i) {
+    start = recursion.apply(start);
+    start.normalize();
+  }
+  return start;
 }
 
 }  // namespace
 
 GrowthEstimate growth_factor(const BodyModel& model) {
-  constexpr int kMostSteps = 160, kCheckEvery = 20;
+  constexpr int kMostSteps = 600, kMostKept = 100, kKept = 40, kCheckEvery = 20;
   constexpr double kTolerance = 1e-5;
   const FreeRecursion recursion(model);
-  Eigen::VectorXd start(recursion.size());
-  std::mt19937 random(1);  // the same numbers on every machine
-  for (Eigen::Index i = 0; i < start.size(); ++i) start[i] = random() / 4294967296.0 - 0.5;
-  // a few steps fill the history with a consistent motion and damp what is heavily damped
   const int smoothing = model.discretisation.history_length + 10;
-  for (int i = 0; i < smoothing; ++i) {
-    start = recursion.apply(start);
-    start.normalize();
+  KrylovSpace space(recursion, smoothed_start(recursion, smoothing), kMostKept);
+  GrowthEstimate estimate;
+  for (int step = 1; step <= kMostSteps; ++step) {
+    const bool open = space.extend();
+    if (open && step % kCheckEvery != 0) continue;
+    estimate = space.largest();
+    estimate.steps = smoothing + step;
+    // what decays anyway need not be known as well
+    const double tolerance = kTolerance + 0.02 * std::max(0.0, 1 - estimate.factor);
+    if (!open || estimate.residual <= tolerance) return estimate;
+    if (space.size() == kMostKept) space.cut(kKept);
   }
-  std::vector<Eigen::VectorXd> basis = {start};
-  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(kMostSteps + 1, kMostSteps);
-  GrowthEstimate best;
-  for (int j = 0; j < kMostSteps; ++j) {
-    Eigen::VectorXd w = recursion.apply(basis[j]);
-    for (int pass = 0; pass < 2; ++pass)
-      for (int i = 0; i <= j; ++i) {
-        const double c = basis[i].dot(w);
-        h(i, j) += c;
-        w -= c * basis[i];
-      }
-    h(j + 1, j) = w.norm();
-    const bool exhausted = h(j + 1, j) < 1e-12;
-    if (exhausted || (j + 1) % kCheckEvery == 0) {
-      const GrowthEstimate loose =
-          largest_ritz_value(h.topLeftCorner(j + 1, j + 1), h(j + 1, j), 1);
-      best = largest_ritz_value(h.topLeftCorner(j + 1, j + 1), h(j + 1, j), kTolerance);
-      best.steps = smoothing + j + 1;
-      // done when nothing unconverged is larger
-      if (exhausted || (best.factor > 0 && loose.factor <= best.factor * (1 + 1e-6))) return best;
-      if (j + 1 == kMostSteps && best.factor == 0) best = loose;
-    }
-    basis.push_back(w / h(j + 1, j));
-  }
-  best.steps = smoothing + kMostSteps;
-  return best;
+  return estimate;
 }
 
 }  // namespace bem

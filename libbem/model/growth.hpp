@@ -11,9 +11,10 @@ struct GrowthEstimate {
 };
 
 /// Largest growth factor per step of the free recursion with removal of rigid motion: the spectral
-/// radius of the step operator, by Arnoldi iteration from a smoothed random state. Values above 1
-/// mean that the discretisation blows up; a window factor q multiplies the result by exactly q. The
-/// model's own window is left out of account. Cost: 40 to 160 steps.
+/// radius of the step operator, by Krylov-Schur iteration from a smoothed random state. Values
+/// above 1 mean that the discretisation blows up; a window factor q multiplies the result by
+/// exactly q. The model's own window is left out of account. Cost: 40 to 650 steps, more the
+/// shorter the time steps are.
 GrowthEstimate growth_factor(const BodyModel& model);
 
 }  // namespace bem

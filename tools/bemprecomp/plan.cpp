@@ -126,7 +126,7 @@ void check_memory(const Plan& plan) {
 }
 
 TimeEstimate estimate_time(const Plan& plan) {
-  constexpr double kGrowthSteps = 60, kWriteSpeed = 1e9;
+  constexpr double kGrowthSteps = 150, kWriteSpeed = 1e9;
   const Discretisation& d = plan.options.discretisation;
   const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());
   const bool single =
