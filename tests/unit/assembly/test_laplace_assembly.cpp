@@ -38,13 +38,14 @@ TEST_CASE("uniform strain satisfies the static equation exactly on flat-triangle
       {"icosphere", centred(icosphere(1, 0.7))},
       {"cube", centred(box(Vec3(1, 1, 1), {3, 3, 3}))},
       {"tetrahedron", centred(random_tetrahedron(7))},
-      {"star", centred(star(2, 1))},
-      {"notched cube", centred(notched_cube(1, 4))}};
-  for (double nu : {0.0, 0.3, 0.49, 0.5})
+      {"star", centred(star(1, 1))},
+      {"notched cube", centred(notched_cube(1, 2))}};
+  for (double nu : {0.0, 0.3, 0.5})
     for (const auto& [name, mesh] : bodies) {
       INFO(name << ", nu " << nu);
-      CHECK(patch_residual(mesh, material(1.3, 2.1, nu), 1e-8) < 3e-6);
-      CHECK(patch_residual(mesh, material(1.3, 2.1, nu), 1e-8) > 1e-16);
+      const double residual = patch_residual(mesh, material(1.3, 2.1, nu), 1e-7);
+      CHECK(residual < 1e-8);
+      CHECK(residual > 1e-16);
     }
 }
 

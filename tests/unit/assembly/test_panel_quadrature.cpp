@@ -1,5 +1,7 @@
 #include "assembly/panel_quadrature.hpp"
+#include "kernels/tensors.hpp"
 #include "support/bodies.hpp"
+#include "support/reference.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -45,4 +47,69 @@ TEST_CASE("distance of a point from a triangle") {
   CHECK(point_triangle_distance(Vec3(-3, 0, 4), a, b, c) == Approx(5));
   CHECK(point_triangle_distance(Vec3(2, 2, 0), a, b, c) == Approx(std::sqrt(2.0)));
   CHECK(point_triangle_distance(Vec3(1, -2, 0), a, b, c) == Approx(2));
+}
+
+namespace {
+
+/// Kernels integrated over one triangle, and their static sizes, which the tolerance refers to.
+struct Integrals {
+  Eigen::Matrix3cd u[3], p[3], d = Eigen::Matrix3cd::Zero(), l = d;
+  double u_size[3] = {}, p_size[3] = {}, d_size = 0, l_size = 0;
+};
+
+Integrals integrate(const PanelQuadrature& quadrature, int vertex, const Material& m, Complex s) {
+  const double c2 = m.shear_speed();
+  const RadialValues<double> rest = static_radial_values(m.kappa());
+  Integrals sum;
+  for (int a = 0; a < 3; ++a) sum.u[a] = sum.p[a] = Eigen::Matrix3cd::Zero();
+  PointBatch scratch;
+  quadrature.for_each_batch(vertex, 0, scratch, [&](const PointBatch& batch) {
+    for (int q = 0; q < batch.size; ++q) {
+      const Vec3 r(batch.r[0][q], batch.r[1][q], batch.r[2][q]);
+      const PairGeometry pair = pair_geometry(Vec3::Zero(), r, quadrature.normal(0));
+      const RadialValues<Complex> v = radial_values(s * pair.r / c2, m.kappa());
+      for (int a = 0; a < 3; ++a) {
+        const double weight = batch.shape_weight[a][q];
+        sum.u[a] += weight * displacement_kernel(pair, v, m.shear_modulus);
+        sum.p[a] += weight * traction_kernel(pair, v);
+        sum.d += weight * translation_kernel(pair, v, c2);
+        sum.l += weight * rotation_kernel(pair, v, c2);
+        sum.u_size[a] += weight * displacement_kernel(pair, rest, m.shear_modulus).norm();
+        sum.p_size[a] += weight * traction_kernel(pair, rest).norm();
+        sum.d_size += weight * translation_kernel(pair, rest, c2).norm();
+        sum.l_size += weight * rotation_kernel(pair, rest, c2).norm();
+      }
+    }
+  });
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("panels are integrated to the tolerance") {
+  // from points beside the triangle, against high-precision integrals
+  const json data = load_reference("triangle_integrals.json");
+  int count = 0;
+  for (const json& e : data["integrals"]) {
+    if (e["kind"] != "regular") continue;
+    ++count;
+    TriangleMesh mesh;
+    for (const json& corner : e["tri"]) mesh.vertices.push_back(vec3(corner));
+    mesh.vertices.push_back(vec3(e["x"]));
+    mesh.triangles = {{0, 1, 2}};
+    const Material m = material(number(e["rho"]), number(e["mu"]), number(e["nu"]));
+    const Complex s = complex(e["s"]);
+    for (double tolerance : {1e-4, 1e-6, 1e-8}) {
+      const PanelQuadrature quadrature(mesh, tolerance, std::abs(s) / m.shear_speed());
+      const Integrals sum = integrate(quadrature, 3, m, s);
+      INFO("s " << s << ", nu " << m.poisson_ratio << ", tolerance " << tolerance);
+      for (int a = 0; a < 3; ++a) {
+        CHECK((sum.u[a] - matrix3(e["u"][a])).norm() < tolerance * sum.u_size[a]);
+        CHECK((sum.p[a] - matrix3(e["p"][a])).norm() < tolerance * sum.p_size[a]);
+      }
+      CHECK((sum.d - matrix3(e["d"][0])).norm() < tolerance * sum.d_size);
+      CHECK((sum.l - matrix3(e["l"][0])).norm() < tolerance * sum.l_size);
+    }
+  }
+  CHECK(count == 24);
 }

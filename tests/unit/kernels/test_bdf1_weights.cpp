@@ -20,7 +20,7 @@ TEST_CASE("Poisson weights and their tails agree with the high-precision referen
       relative(w.m0[lags[i]], entry["m0"][i]);
     }
   }
-  CHECK(worst < 5e-15);  // relative, even for weights of 1e-77
+  CHECK(worst < 2e-15);  // relative, even for weights of 1e-77
 }
 
 TEST_CASE("BDF1 weights of the radial functions agree with the high-precision reference") {

@@ -1,33 +1,10 @@
 #include "kernels/contour.hpp"
+#include "support/lag_matrices.hpp"
 #include "support/reference.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace bem;
-
-namespace {
-
-/// Stage matrix of lag k rebuilt from the lanes of one function.
-StageMatrix stage_weight(const Scheme& scheme, const LaneLayout& layout, const double* lanes,
-                         int k) {
-  StageMatrix w = StageMatrix::Zero(scheme.stages(), scheme.stages());
-  if (k == 0) {
-    int lane = 0;
-    for (const InitialComponent& c : scheme.initial_components()) {
-      const Complex value(lanes[lane], c.paired ? lanes[lane + 1] : 0);
-      w += c.multiplicity() * (value * c.left * c.right.transpose()).real();
-      lane += c.paired ? 2 : 1;
-    }
-    return w;
-  }
-  for (int m = 0; m < layout.components; ++m) {
-    const LagComponent& c = scheme.lag_components()[m];
-    w += lanes[layout.lane(k, m)] * c.left * c.right.transpose();
-  }
-  return w;
-}
-
-}  // namespace
 
 TEST_CASE("contour weights of the BDF2 exponential agree with the reference") {
   const auto data = bem_test::load_reference("cq_weights.json");
@@ -58,7 +35,7 @@ TEST_CASE("three components carry the full 2x2 Radau weights of a rational funct
   StageMatrix x = (d0 - pole * StageMatrix::Identity(2, 2)).inverse();
   const StageMatrix x0 = x;
   for (int k = 0; k <= last; ++k) {
-    CHECK((stage_weight(radau, contour.layout(), lanes.data(), k) - x).norm() < 1e-13);
+    CHECK((bem_test::stage_matrix(radau, contour.layout(), lanes.data(), k) - x).norm() < 1e-13);
     x = (-x0 * d1 * x).eval();
   }
 }
@@ -72,7 +49,8 @@ TEST_CASE("closed weights sum to the transfer function at zeta = 1") {
     const auto f = [lam](Complex d, Complex* v) { *v = std::exp(-d * lam) + 0.5; };
     contour.weights(1, f, lanes.data(), true);
     StageMatrix sum = StageMatrix::Zero(s.stages(), s.stages());
-    for (int k = 0; k <= last; ++k) sum += stage_weight(s, contour.layout(), lanes.data(), k);
+    for (int k = 0; k <= last; ++k)
+      sum += bem_test::stage_matrix(s, contour.layout(), lanes.data(), k);
     // the eigenvector of Delta(1) for the eigenvalue 0 is the constant: f(Delta(1)) 1 = f(0) 1
     const StageVector ones = StageVector::Ones(s.stages());
     CHECK((sum * ones - 1.5 * ones).norm() < 1e-13);

@@ -114,9 +114,9 @@ TEST_CASE("integrals over triangles agree with the high-precision reference") {
       singular = std::max({singular, relative(sum.d, e["d"][0]), relative(sum.l, e["l"][0])});
     }
   }
-  CHECK(count >= 18);
-  CHECK(regular < 1e-12);
-  CHECK(singular < 5e-14);
+  CHECK(count == 36);
+  CHECK(regular < 1e-13);
+  CHECK(singular < 5e-15);
 }
 
 TEST_CASE("the default numbers of polar points reach their tolerance") {

@@ -1,4 +1,5 @@
 #include "quadrature/triangle_rules.hpp"
+#include "support/reference.hpp"
 
 #include <cmath>
 
@@ -42,6 +43,26 @@ TEST_CASE("triangle rules have exactly the stated degree, positive weights and i
     for (int q = 0; q < rule.size; ++q) {
       CHECK(rule.points[q].weight > 0);
       for (double b : rule.points[q].barycentric) CHECK((b > 0 && b < 1));
+    }
+  }
+}
+
+TEST_CASE("triangle rules have the points and weights of the reference") {
+  const bem_test::json data = bem_test::load_reference("triangle_rules.json");
+  for (const bem::TriangleRule& rule : bem::triangle_rules()) {
+    const bem_test::json& exact = data["rules"][std::to_string(rule.degree)];
+    INFO("degree " << rule.degree);
+    REQUIRE(static_cast<int>(exact["points"].size()) == rule.size);
+    for (int q = 0; q < rule.size; ++q) {
+      double nearest = 1;  // the points may come in another order
+      for (int e = 0; e < rule.size; ++e) {
+        double difference = std::abs(rule.points[q].weight - bem_test::number(exact["weights"][e]));
+        for (int i = 0; i < 3; ++i)
+          difference = std::max(difference, std::abs(rule.points[q].barycentric[i] -
+                                                     bem_test::number(exact["points"][e][i])));
+        nearest = std::min(nearest, difference);
+      }
+      CHECK(nearest < 1e-16);
     }
   }
 }
