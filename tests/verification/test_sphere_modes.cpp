@@ -12,15 +12,19 @@ using namespace bem;
 using namespace bem_test;
 
 TEST_CASE("sphere: Lamb's modes with their multiplicities") {
+  // 1.15 times the largest errors of docs/accuracy.md with 42 vertices
+  std::map<std::string, double> limits = {{"T2", 0.031}, {"S2", 0.016}, {"S1", 0.0125},
+                                          {"T3", 0.032}, {"S3", 0.034}, {"S0", 0.0006}};
   const TriangleMesh mesh = unit_volume_icosphere(1);
   for (const double nu : {0.25, 0.30, 0.45, 0.49}) {
     FamilyValues modes = all_sphere_modes(mesh, nu);
+    if (nu > 0.4) limits["S0"] = 0.0135;  // at more than twice the frequency
     for (const SphereFamily& f : sphere_families(nu)) {
       if (f.frequency > 20) continue;  // six elements around the sphere do not resolve it
       const ModeGroup g = group_of(modes[f.name]);
       CAPTURE(nu, f.name, g.mean);
       CHECK(g.count == f.multiplicity());
-      CHECK(g.mean.imag() == Approx(f.frequency).epsilon(0.032));
+      CHECK(g.mean.imag() == Approx(f.frequency).epsilon(limits.at(f.name)));
       CHECK(std::abs(g.mean.real()) < 0.045 * f.frequency);
       CHECK(g.spread < 0.005);
     }
