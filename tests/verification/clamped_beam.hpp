@@ -64,12 +64,14 @@ struct Ringing {
   double growth = 0;  ///< of the amplitude, per period
 };
 
-/// First periods after gravity sets in, radau2 with 50 steps per period of beam theory.
-inline Ringing ringing(const ClampedBeam& b, int across, double rest, double window) {
+/// First periods after gravity sets in, with 50 steps per period of beam theory; window 0 is
+/// "auto".
+inline Ringing ringing(const ClampedBeam& b, int across, double rest, double window,
+                       const std::string& scheme = "radau2") {
   constexpr int kPeriods = 5;
   const double dt = 0.02 / b.bending1;
   const std::vector<double> tip =
-      tip_deflections(b, across, "radau2", dt, 50 * (kPeriods + 1), window);
+      tip_deflections(b, across, scheme, dt, 50 * (kPeriods + 1), window);
   std::vector<double> passages, extremes;  // an extreme after every passage, first a peak
   for (std::size_t n = 1; n < tip.size(); ++n) {
     if ((tip[n - 1] < rest) != (tip[n] < rest)) {
@@ -89,13 +91,15 @@ inline Ringing ringing(const ClampedBeam& b, int across, double rest, double win
 }
 
 /// Prints and returns the ringing of a beam with `across` cells over its width.
-inline Ringing print_ringing(const ClampedBeam& b, int across, double rest, double window) {
-  const Ringing r = ringing(b, across, rest, window);
+inline Ringing print_ringing(const ClampedBeam& b, int across, double rest, double window,
+                             const std::string& scheme = "radau2") {
+  const Ringing r = ringing(b, across, rest, window, scheme);
   std::printf(
-      "clamped beam, %d cells, nu %.2f, window %s: rest %.4e m (%+.3f), %.4f Hz (%+.3f), "
+      "clamped beam, %d cells, nu %.2f, %s, window %s: rest %.4e m (%+.3f), %.4f Hz (%+.3f), "
       "peak/rest %.3f, centre/rest %.4f, growth per period %.4f\n",
-      across, b.material.nu, window == 1 ? "1" : "auto", rest, rest / b.deflection - 1, r.hertz,
-      r.hertz / b.bending1 - 1, r.peak / rest, r.centre / rest, r.growth);
+      across, b.material.nu, scheme.c_str(), window == 0 ? "auto" : std::to_string(window).c_str(),
+      rest, rest / b.deflection - 1, r.hertz, r.hertz / b.bending1 - 1, r.peak / rest,
+      r.centre / rest, r.growth);
   return r;
 }
 

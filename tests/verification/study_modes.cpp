@@ -18,6 +18,7 @@ int sphere_table(int subdivisions, double nu) {
   for (const SphereFamily& f : sphere_families(nu)) {
     const ModeGroup g = group_of(modes[f.name]);
     found += g.count;
+    if (g.count == 0) continue;
     std::printf("sphere, %zu vertices, nu %.2f: %d %s %.5f (%+.4f), damping %+.4f, spread %.4f\n",
                 mesh.vertices.size(), nu, g.count, f.name, g.mean.imag(),
                 g.mean.imag() / f.frequency - 1, -g.mean.real() / std::abs(g.mean), g.spread);
@@ -94,7 +95,9 @@ TEST_CASE("clamped beams") {
           g.mean.imag() / (2 * kPi) / b.bending1 - 1, -g.mean.real() / g.mean.imag());
       CHECK(g.count == 2);
       const double rest = resting_deflection(b, across);
-      for (const double window : {1, 0})
+      for (const double window : {1.0, 0.997, 0.0})
         CHECK(print_ringing(b, across, rest, window).peak == Approx(2 * rest).epsilon(0.06));
+      for (const char* scheme : {"bdf2", "theta:0.75"})
+        CHECK(print_ringing(b, across, rest, 1, scheme).peak == Approx(2 * rest).epsilon(0.06));
     }
 }
