@@ -18,7 +18,7 @@ SetResult solve_set(const ContactSet& set, const FrictionOptions& options, BestF
     case FrictionMethod::nsgs:
       return solve_nsgs(set, tolerance, options, best);
     case FrictionMethod::newton:
-      return solve_nsgs(set, tolerance, options, best);
+      return solve_newton(set, tolerance, options, best);
   }
   return {};
 }

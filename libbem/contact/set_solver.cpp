@@ -1,7 +1,9 @@
 #include "contact/set_solver.hpp"
 
 #include "contact/gauss_seidel.hpp"
+#include "contact/interior_point.hpp"
 #include "contact/natural_map.hpp"
+#include "contact/proximal_newton.hpp"
 
 #include <limits>
 
@@ -10,6 +12,30 @@ namespace {
 
 constexpr int kStageSweeps = 20;    ///< sweeps of one staggered problem at most
 constexpr int kCheckInterval = 50;  ///< sweeps between evaluations of the error at most
+
+constexpr int kFirstSweeps = 20;  ///< Gauss-Seidel sweeps before Newton's method
+
+/// Interior point steps until a Newton polish from its iterate converges; returns linear solves.
+int interior_point_and_polish(const ContactSet& set, double tolerance, int max_steps,
+                              ProximalNewton& newton, BestForces& best) {
+  InteriorPoint interior(set, best.forces());
+  NewtonLimits polish;
+  polish.steps_per_goal = 8;
+  polish.failures = 0;
+  double polish_below = 1e-4;
+  int steps = 0;
+  while (best.error() > tolerance && steps < max_steps) {
+    const bool moving = interior.step();
+    ++steps;
+    const double error = best.consider(interior.forces());
+    if (!moving || !std::isfinite(error)) break;
+    if (best.error() > polish_below || best.error() <= tolerance) continue;
+    polish.steps = std::min(12, max_steps - steps);
+    steps += newton.solve(tolerance, 1e-6, polish, best);
+    polish_below = 0.01 * std::min(polish_below, error);
+  }
+  return steps;
+}
 
 }  // namespace
 
@@ -54,6 +80,29 @@ SetResult solve_nsgs(const ContactSet& set, double tolerance, const FrictionOpti
         result.sweeps == options.max_sweeps)
       if (!std::isfinite(best.consider(forces))) break;
   }
+  result.error = best.error();
+  return result;
+}
+
+SetResult solve_newton(const ContactSet& set, double tolerance, const FrictionOptions& options,
+                       BestForces& best) {
+  SetResult result;
+  FrictionOptions first = options;
+  first.max_sweeps = std::min(kFirstSweeps, options.max_sweeps);
+  result.sweeps = solve_nsgs(set, tolerance, first, best).sweeps;
+  ProximalNewton newton(set);
+  NewtonLimits attempt;
+  attempt.steps = std::min(20, options.max_newton_steps);
+  attempt.steps_per_goal = 12;
+  attempt.failures = 0;
+  int& steps = result.newton_steps;
+  steps = newton.solve(tolerance, 1e-5, attempt, best);
+  if (best.error() > tolerance)
+    steps += interior_point_and_polish(
+        set, tolerance, std::min(100, options.max_newton_steps - steps), newton, best);
+  NewtonLimits rest;
+  rest.steps = options.max_newton_steps - steps;
+  if (best.error() > tolerance) steps += newton.solve(tolerance, 1e-3, rest, best);
   result.error = best.error();
   return result;
 }

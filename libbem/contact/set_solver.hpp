@@ -32,5 +32,7 @@ SetResult solve_staggered(const ContactSet& set, double tolerance, const Frictio
                           BestForces& best);
 SetResult solve_nsgs(const ContactSet& set, double tolerance, const FrictionOptions& options,
                      BestForces& best);
+SetResult solve_newton(const ContactSet& set, double tolerance, const FrictionOptions& options,
+                       BestForces& best);
 
 }  // namespace bem
