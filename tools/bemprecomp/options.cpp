@@ -42,7 +42,7 @@ void add_matrix_options(CLI::App& app, Typed& t) {
                  "factor 0 < q <= 1 on the weights per lag, 1 for none; auto: the weakest that "
                  "makes the measured growth <= 1 (auto)")
       ->type_name("q");
-  app.add_option("--model", t.model, "dynamic; static and rigid are not supported yet (dynamic)")
+  app.add_option("--model", t.model, "dynamic, or rigid: geometry and mass alone; static is not supported yet (dynamic)")
       ->type_name("NAME");
   app.add_option("--history-tol", o.history_tolerance,
                  "length of the history from the size of the weights beyond it")
@@ -123,7 +123,7 @@ void check_supported(const Typed& t) {
       refuse(option + " " + value + " is not supported yet; use " + option + " " + now);
     refuse(option + " does not know \"" + value + "\"; use " + now);
   };
-  one_of("--model", t.model, {"static", "rigid"}, "dynamic");
+  if (t.model != "rigid") one_of("--model", t.model, {"static"}, "dynamic");
   one_of("--codec", t.codec, {"haar", "lowrank"}, "none");
   if (t.codec_tolerance) refuse("--codec-tol belongs to --codec haar or lowrank");
   if (t.compression_ratio) refuse("--compression-ratio belongs to --codec haar");
@@ -179,6 +179,7 @@ Options checked(const CLI::App& app, Typed& t) {
   } else {
     if (app.count("--damping") > 0) refuse("--damping is not supported yet; leave it away");
     check_supported(t);
+    o.model = t.model == "rigid" ? ModelKind::rigid : ModelKind::dynamic;
     o.window = parse_window(t.window);
     o.precision = t.precision == "float32" ? Precision::float32 : Precision::float64;
     check_inputs(o);
@@ -190,6 +191,7 @@ Options checked(const CLI::App& app, Typed& t) {
 }  // namespace
 
 std::string Options::canonical_text() const {
+  if (model == ModelKind::rigid) return "--model rigid";
   std::string text = "--scheme " + Scheme::parse(scheme).name();
   text += " --window " + (window == 0 ? "auto" : to_text(window));
   if (history) text += " --history " + std::to_string(*history);

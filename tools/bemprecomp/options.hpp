@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compress/stored_matrix.hpp"
+#include "model/body_model.hpp"
 
 #include <optional>
 #include <string>
@@ -17,6 +17,7 @@ struct Options {
 
   std::string mesh, material, output;
   std::optional<double> dt;  ///< [s]; else the material's
+  ModelKind model = ModelKind::dynamic;
   std::string scheme = "radau2";
   double window = 0;  ///< as PrecomputeOptions: 0 is "auto"
   std::optional<double> history_tolerance;

@@ -90,6 +90,12 @@ Plan make_plan(const Options& o) {
   Plan plan;
   Discretisation& d = plan.options.discretisation;
   d.material = read_material(o.material);
+  plan.options.kind = o.model;
+  if (o.model == ModelKind::rigid) {
+    plan.geometry = read_body(o, d.material.density, plan.warnings);
+    plan.archive_bytes = archive_bytes(plan.geometry, plan.options);
+    return plan;
+  }
   if (!o.dt && !d.material.time_step)
     throw Error(ErrorCode::usage, "no time step: give --dt S, or \"time_step\" in " + o.material);
   d.dt = o.dt ? *o.dt : *d.material.time_step;
@@ -126,6 +132,7 @@ void check_memory(const Plan& plan) {
 }
 
 TimeEstimate estimate_time(const Plan& plan) {
+  if (plan.options.kind == ModelKind::rigid) return {};
   constexpr double kGrowthSteps = 150, kWriteSpeed = 1e9;
   const Discretisation& d = plan.options.discretisation;
   const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());

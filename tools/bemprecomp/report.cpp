@@ -71,14 +71,16 @@ class Table {
   std::ostream& out_;
 };
 
-void print_body(Table& table, const BodyGeometry& g, const Discretisation& d, double lam) {
-  const Material& m = d.material;
+void print_body(Table& table, const BodyGeometry& g, const Material& m) {
   table.line("mesh", g.input.vertices.size(), " vertices, ", g.input.triangles.size(),
              " triangles, ", g.nodes.vertices.size(), " nodes");
   table.line("body", "extent ", g.extent, " m, volume ", g.mass.volume, " m^3, mass ", g.mass.mass,
              " kg");
   table.line("material", m.name, ": density ", m.density, " kg/m^3, shear modulus ",
              m.shear_modulus, " Pa, Poisson ratio ", m.poisson_ratio);
+}
+
+void print_scheme(Table& table, const Discretisation& d, double lam) {
   table.line("time", d.scheme.name(), ", dt ", d.dt, " s, history of ", d.history_length,
              " steps (a shear wave crosses the body in ", lam, " steps)");
 }
@@ -87,46 +89,57 @@ void print_body(Table& table, const BodyGeometry& g, const Discretisation& d, do
 
 Json info_json(const Archive& archive) {
   const Provenance& p = archive.provenance();
-  return {
-      {"format_version", archive.user_block().version},
-      {"bytes", archive.user_block().payload + kUserBlock},
-      {"digest", archive.user_block().digest},
-      {"model", kArchiveModel},
-      {"codec", kArchiveCodec},
-      {"precision", precision_name(archive.precision())},
-      {"mesh",
-       {{"vertices", archive.geometry().input.vertices.size()},
-        {"faces", archive.geometry().input.triangles.size()}}},
-      {"body", body_json(archive.geometry())},
-      {"material", material_json(archive.discretisation().material)},
-      {"scheme", scheme_json(archive.discretisation(), archive.window())},
-      {"matrices", {{"unknowns", archive.unknowns()}, {"count", archive.matrix_paths().size()}}},
-      {"report", report_json(archive.report())},
-      {"provenance",
-       {{"program", p.program},
-        {"mesh_file", p.mesh_file},
-        {"material_file", p.material_file},
-        {"mesh_scale", p.mesh_scale},
-        {"options", p.options}}}};
+  Json json = {{"format_version", archive.user_block().version},
+               {"bytes", archive.user_block().payload + kUserBlock},
+               {"digest", archive.user_block().digest},
+               {"model", model_name(archive.kind())},
+               {"mesh",
+                {{"vertices", archive.geometry().input.vertices.size()},
+                 {"faces", archive.geometry().input.triangles.size()}}},
+               {"body", body_json(archive.geometry())},
+               {"material", material_json(archive.discretisation().material)},
+               {"provenance",
+                {{"program", p.program},
+                 {"mesh_file", p.mesh_file},
+                 {"material_file", p.material_file},
+                 {"mesh_scale", p.mesh_scale},
+                 {"options", p.options}}}};
+  if (archive.kind() == ModelKind::rigid) return json;
+  json["codec"] = kArchiveCodec;
+  json["precision"] = precision_name(archive.precision());
+  json["scheme"] = scheme_json(archive.discretisation(), archive.window());
+  json["matrices"] = {{"unknowns", archive.unknowns()}, {"count", archive.matrix_paths().size()}};
+  json["report"] = report_json(archive.report());
+  return json;
 }
 
-void print_info(std::ostream& out, const Archive& archive) {
-  Table table(out);
+namespace {
+
+void print_matrices(Table& table, const Archive& archive) {
   const Discretisation& d = archive.discretisation();
-  const Provenance& p = archive.provenance();
   const ModelReport& r = archive.report();
-  table.line("archive", archive.path(), ", ",
-             bytes_text(static_cast<double>(archive.user_block().payload + kUserBlock)),
-             ", format version ", archive.user_block().version);
-  print_body(table, archive.geometry(), d, r.lam);
+  print_scheme(table, d, r.lam);
   table.line("window", archive.window());
   table.line("matrices", archive.matrix_paths().size(), " of ", archive.unknowns(), " x ",
-             archive.unknowns(), ", ", precision_name(archive.precision()), ", model ",
-             kArchiveModel, ", codec ", kArchiveCodec);
+             archive.unknowns(), ", ", precision_name(archive.precision()), ", codec ",
+             kArchiveCodec);
   table.line("quadrature", "tolerance ", d.quadrature_tolerance, ", row sums repaired by ",
              r.row_sum_residual, ", rotation residual ", r.rotation_residual);
   table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
              " without window), condition number ", r.condition);
+}
+
+}  // namespace
+
+void print_info(std::ostream& out, const Archive& archive) {
+  Table table(out);
+  const Provenance& p = archive.provenance();
+  table.line("archive", archive.path(), ", ",
+             bytes_text(static_cast<double>(archive.user_block().payload + kUserBlock)),
+             ", format version ", archive.user_block().version);
+  table.line("model", model_name(archive.kind()));
+  print_body(table, archive.geometry(), archive.discretisation().material);
+  if (archive.kind() == ModelKind::dynamic) print_matrices(table, archive);
   table.line("made by", p.program, " from ", p.mesh_file, " (times ", p.mesh_scale, ") and ",
              p.material_file);
   table.line("options", p.options);
@@ -136,13 +149,15 @@ void print_info(std::ostream& out, const Archive& archive) {
 void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
   Table table(out);
   const Discretisation& d = plan.options.discretisation;
-  print_body(table, plan.geometry, d, plan.lam);
+  print_body(table, plan.geometry, d.material);
+  table.line("archive size", bytes_text(plan.archive_bytes));
+  if (plan.options.kind == ModelKind::rigid) return;
+  print_scheme(table, d, plan.lam);
   table.line("lam", plan.lam);
   table.line("n_max", d.history_length);
   table.line("memory", bytes_text(plan.memory.stored), " of matrices, ",
              bytes_text(plan.memory.peak), " at most (the machine has ",
              bytes_text(static_cast<double>(physical_memory())), ")");
-  table.line("archive size", bytes_text(plan.archive_bytes));
   table.line("time", "about ", seconds_text(time.total()), " on ", thread_count(),
              " threads (assembly ", seconds_text(time.assembly), ", inversion ",
              seconds_text(time.inversion), ", growth factor ", seconds_text(time.growth),
@@ -157,19 +172,22 @@ Json stats_json(const BodyModel& model, const std::string& archive, const PhaseT
                       {"wall_seconds", p.wall_seconds},
                       {"cpu_seconds", p.cpu_seconds},
                       {"peak_memory_bytes", p.peak_memory}});
-  return {{"program", version_text()},
-          {"archive", archive},
-          {"archive_bytes", std::filesystem::file_size(archive)},
-          {"threads", thread_count()},
-          {"wall_seconds", timer.total_wall_seconds()},
-          {"peak_memory_bytes", peak_memory()},
-          {"phases", phases},
-          {"precision", precision_name(model.precision)},
-          {"body", body_json(model.geometry)},
-          {"material", material_json(model.discretisation.material)},
-          {"scheme", scheme_json(model.discretisation, model.window)},
-          {"report", report_json(model.report)},
-          {"warnings", warnings}};
+  Json json = {{"program", version_text()},
+               {"archive", archive},
+               {"archive_bytes", std::filesystem::file_size(archive)},
+               {"model", model_name(model.kind)},
+               {"threads", thread_count()},
+               {"wall_seconds", timer.total_wall_seconds()},
+               {"peak_memory_bytes", peak_memory()},
+               {"phases", phases},
+               {"body", body_json(model.geometry)},
+               {"material", material_json(model.discretisation.material)},
+               {"warnings", warnings}};
+  if (model.kind == ModelKind::rigid) return json;
+  json["precision"] = precision_name(model.precision);
+  json["scheme"] = scheme_json(model.discretisation, model.window);
+  json["report"] = report_json(model.report);
+  return json;
 }
 
 }  // namespace bem

@@ -99,7 +99,8 @@ int run_precompute(const Options& o, Log& log) {
   check_archive_target(o.output, o.force, plan.archive_bytes);
   std::optional<PendingFile> stats;  // a bad path is noticed before the work
   if (!o.stats.empty()) stats.emplace(o.stats);
-  log.info(std::to_string(plan.geometry.nodes.vertices.size()) + " nodes, history of " +
+  if (o.model == ModelKind::dynamic)
+    log.info(std::to_string(plan.geometry.nodes.vertices.size()) + " nodes, history of " +
            std::to_string(plan.options.discretisation.history_length) + " steps, " +
            bytes_text(plan.memory.peak) + " of memory");
 

@@ -44,7 +44,8 @@ void apply_options(const Options& o, Plan& plan) {
 
 PlannedBody plan_body(const Scene& scene, const BodySpec& spec, ArchiveSource& source) {
   PlannedBody body{&spec, &source.open(spec.archive), 0, 0, {}};
-  check_time_step(scene, spec, body.archive->discretisation().dt);
+  if (body.archive->kind() == ModelKind::dynamic)
+    check_time_step(scene, spec, body.archive->discretisation().dt);
   const BodyGeometry& geometry = body.archive->geometry();
   for (const TractionSpec& load : spec.tractions)
     body.loaded.push_back(select_triangles(geometry, load.select).size());
@@ -52,20 +53,23 @@ PlannedBody plan_body(const Scene& scene, const BodySpec& spec, ArchiveSource& s
 }
 
 /// Matrices and columns of inputs are shared by the bodies of an archive, histories are not.
-double memory_of(const std::vector<PlannedBody>& bodies) {
+double memory_of(const std::vector<PlannedBody>& bodies, bool contact) {
   double bytes = 0;
   std::set<const Archive*> seen;
   for (const PlannedBody& body : bodies) {
     const Archive& archive = *body.archive;
+    if (archive.kind() == ModelKind::rigid) continue;
     const Discretisation& d = archive.discretisation();
     const auto n = static_cast<double>(archive.unknowns());
     const double entry = archive.precision() == Precision::float32 ? 4 : 8;
     const auto lag_columns = static_cast<double>(d.scheme.lag_components().size()) *
                              static_cast<double>(d.history_length);
     const auto initial = static_cast<double>(d.scheme.initial_components().size());
-    // half of an archive's matrices belong to surface loads: only columns of them are loaded
+    // half of an archive's matrices belong to surface loads: all of them are loaded where anything
+    // may be touched, else some columns
     if (seen.insert(&archive).second)
-      bytes += static_cast<double>(archive.matrix_paths().size() / 2) * n * n * entry;
+      bytes += static_cast<double>(archive.matrix_paths().size() / (contact ? 1 : 2)) * n * n *
+               entry;
     const double prescribed = 3 * static_cast<double>(body.fixed + body.handled);
     double inputs = 6 + 2 * prescribed;
     for (const TractionSpec& load : body.spec->tractions)
@@ -102,8 +106,12 @@ void print_body(std::ostream& out, const PlannedBody& body, const Vec3& gravity)
   const Discretisation& d = body.archive->discretisation();
   out << "body " << in_quotes(spec.name) << ": " << count_text(mesh.vertices.size(), "vertex")
       << ", " << count_text(mesh.triangles.size(), "triangle") << ", archive "
-      << printable(spec.archive.written) << " (" << d.scheme.name() << ", history of "
-      << count_text(static_cast<std::size_t>(d.history_length), "step") << ")\n";
+      << printable(spec.archive.written);
+  if (body.archive->kind() == ModelKind::rigid)
+    out << " (rigid)\n";
+  else
+    out << " (" << d.scheme.name() << ", history of "
+        << count_text(static_cast<std::size_t>(d.history_length), "step") << ")\n";
   out << "  " << (spec.frame == FrameMotion::moving ? "moving" : "static") << " frame";
   if (spec.gravity && !gravity.isZero(0)) out << ", gravity " << vector_text(gravity, "m/s^2");
   if (!spec.velocity.isZero(0)) out << ", velocity " << vector_text(spec.velocity, "m/s");
@@ -135,7 +143,7 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
   for (const Joint& joint : plan_joints(plan->scene, geometries).joints)
     if (joint.prescribed)
       ++(joint.handle ? plan->bodies[joint.a.body].handled : plan->bodies[joint.a.body].fixed);
-  plan->memory = memory_of(plan->bodies);
+  plan->memory = memory_of(plan->bodies, plan->scene.contact.enabled);
   add_warnings(*plan);
   return plan;
 }
