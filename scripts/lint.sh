@@ -96,6 +96,10 @@ run_tidy() {
   if [[ $tidy == changed ]]; then
     mapfile -t sources < <(git diff --name-only --diff-filter=d "$since" -- '*.cpp')
   fi
+  # benchmarks and examples are not part of this build
+  mapfile -t sources < <(printf '%s\n' "${sources[@]}" | while read -r path; do
+    ! grep -qF "\"$PWD/$path\"" build/release/compile_commands.json || echo "$path"
+  done)
   [[ ${#sources[@]} -gt 0 ]] || return 0
   printf '%s\0' "${sources[@]}" |
     xargs -0 -n 1 -P "$(nproc)" clang-tidy -p build/release --quiet --warnings-as-errors='*' \

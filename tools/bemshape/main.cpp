@@ -69,7 +69,8 @@ class CommandLine {
     return "name a shape first, one of " + shapes;
   }
 
-  CLI::App& add_shape(const std::string& name, const std::string& help, Generator generator) {
+  CLI::App& add_shape(const std::string& name, const std::string& help,
+                      const Generator& generator) {
     CLI::App& shape = *app_.add_subcommand(name, help);
     shape.option_defaults()->always_capture_default();
     shape

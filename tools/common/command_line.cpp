@@ -76,7 +76,8 @@ void set_up_help(CLI::App& app, const std::string& usage) {
   app.set_help_flag("-h,--help", "print this help");
   app.formatter(std::make_shared<HelpFormatter>(usage));
   app.footer(
-      "Exit codes: 0 ok, 1 internal error, 2 usage, 3 invalid input, 4 archive, 5 numerical failure,\n"
+      "Exit codes: 0 ok, 1 internal error, 2 usage, 3 invalid input, 4 archive, 5 numerical "
+      "failure,\n"
       "6 memory, disk or permission, 130 and 143 interrupted");
 }
 
