@@ -19,6 +19,9 @@ TEST_CASE("points of every panel integrate linear functions exactly, near, far a
         Vec3 moment = Vec3::Zero(), shape = Vec3::Zero();
         quadrature.for_each_batch(vertex, static_cast<int>(t), batch, [&](const PointBatch& b) {
           for (int q = 0; q < b.size; ++q) {
+            if (b.far)
+              CHECK(Vec3(b.r[0][q], b.r[1][q], b.r[2][q]).norm() >
+                    2 * longest_edge(mesh, mesh.triangles[t]));
             double weight = 0;
             for (int a = 0; a < 3; ++a) {
               weight += b.shape_weight[a][q];

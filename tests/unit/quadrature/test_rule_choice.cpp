@@ -31,3 +31,11 @@ TEST_CASE("tighter tolerances and oscillation never choose a smaller rule") {
   CHECK(RuleChoice(1e-6).choose(30, 8) > RuleChoice(1e-6).choose(30, 0));
   CHECK(RuleChoice(1e-8).choose(30, 100) == -1);
 }
+
+TEST_CASE("the oscillation limits every rule as measured") {
+  // degree 6 (rule 4) leaves 5e-5 at Z = 8 and, by its sixth power, 1.05e-6 at Z = 4.2
+  CHECK(RuleChoice(6e-5).choose(30, 8) == 4);
+  CHECK(RuleChoice(4e-5).choose(30, 8) == 5);
+  CHECK(RuleChoice(1.2e-6).choose(30, 4.2) == 4);
+  CHECK(RuleChoice(0.9e-6).choose(30, 4.2) == 5);
+}
