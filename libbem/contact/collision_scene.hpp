@@ -31,7 +31,7 @@ class CollisionScene {
   const Scene& scene_;
   const std::vector<Body>& bodies_;
   std::vector<ObstacleMesh> obstacles_;
-  std::vector<double> friction_;              ///< by surface: bodies, mesh obstacles, planes
+  std::vector<double> friction_;                ///< by surface: bodies, mesh obstacles, planes
   std::vector<std::vector<Vec3>> start_, end_;  ///< by surface
   CollisionDetector detector_;
 };

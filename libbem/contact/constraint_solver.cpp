@@ -31,10 +31,10 @@ Eigen::VectorXd compliance_times(const FrictionProblem& f, const Eigen::VectorXd
 /// The linearised contact problem of a set of contacts and what it takes to eliminate the joints.
 struct ConstraintSolver::Problem {
   struct Part {
-    std::vector<int> contacts;               ///< that touch a mechanism, ascending
-    Eigen::MatrixXd compliance;              ///< among them, joints eliminated
-    Eigen::MatrixXd joint_change;            ///< W_bb^{-1} W_bc
-    Eigen::MatrixXd contacts_by_joints;      ///< W_cb
+    std::vector<int> contacts;           ///< that touch a mechanism, ascending
+    Eigen::MatrixXd compliance;          ///< among them, joints eliminated
+    Eigen::MatrixXd joint_change;        ///< W_bb^{-1} W_bc
+    Eigen::MatrixXd contacts_by_joints;  ///< W_cb
   };
   std::vector<Part> parts;  ///< by mechanism
   FrictionProblem friction;
@@ -61,7 +61,10 @@ void ConstraintSolver::begin_step(double t, double dt) {
 void ConstraintSolver::place_contacts(const std::vector<ContactPair>& contacts) {
   contacts_ = contacts;
   frames_.clear();
-  forces_.clear();
+  // The problem is linearised about the motion without contact forces: those of the last step, some
+  // of them on contacts that are gone, may throw a light body far away.
+  forces_.assign(contacts_.size(), Vec3::Zero());
+  guesses_.clear();
   ports_.assign(bodies_->size(), {});
   std::vector<std::vector<int>> nodes(bodies_->size());
   const auto for_each_end = [&](const auto& f) {
@@ -81,7 +84,7 @@ void ConstraintSolver::place_contacts(const std::vector<ContactPair>& contacts) 
   for (const ContactPair& pair : contacts_) {
     frames_.push_back(contact_frame(pair.contact.normal));
     const auto known = known_forces_.find(pair.contact.key);
-    forces_.push_back(known == known_forces_.end() ? Vec3(Vec3::Zero()) : known->second);
+    guesses_.push_back(known == known_forces_.end() ? Vec3(Vec3::Zero()) : known->second);
   }
   for_each_end([&](std::size_t c, int body, const SurfacePoint& p, double sign) {
     Port port;
@@ -90,9 +93,9 @@ void ConstraintSolver::place_contacts(const std::vector<ContactPair>& contacts) 
     port.count = p.count;
     port.weights = p.weights;
     for (int i = 0; i < p.count; ++i)
-      port.slots[i] = static_cast<int>(
-          std::lower_bound(nodes[body].begin(), nodes[body].end(), p.vertices[i]) -
-          nodes[body].begin());
+      port.slots[i] =
+          static_cast<int>(std::lower_bound(nodes[body].begin(), nodes[body].end(), p.vertices[i]) -
+                           nodes[body].begin());
     ports_[body].push_back(port);
   });
 }
@@ -100,10 +103,15 @@ void ConstraintSolver::place_contacts(const std::vector<ContactPair>& contacts) 
 void ConstraintSolver::apply_contact_forces() {
   for (std::size_t b = 0; b < bodies_->size(); ++b) {
     Eigen::VectorXd& nodal = (*bodies_)[b].contact_forces();
+    Vec3& moment = (*bodies_)[b].contact_moment();
     nodal.setZero();
-    for (const Port& p : ports_[b])
-      for (int i = 0; i < p.count; ++i)
-        nodal.segment<3>(3 * p.slots[i]) += p.sign * p.weights[i] * forces_[p.constraint];
+    moment.setZero();
+    const Vec3 centre = (*bodies_)[b].frame().translation();
+    for (const Port& p : ports_[b]) {
+      const Vec3 force = p.sign * forces_[p.constraint];
+      for (int i = 0; i < p.count; ++i) nodal.segment<3>(3 * p.slots[i]) += p.weights[i] * force;
+      moment += (contacts_[p.constraint].contact.point - centre).cross(force);
+    }
   }
 }
 
@@ -165,13 +173,13 @@ void ConstraintSolver::build(Problem& p) {
       std::vector<Port> ports = ports_[b];
       for (Port& port : ports) {
         port.axes = frames_[port.constraint].transpose() * body.rotation(body.stages() - 1);
-        port.constraint = static_cast<int>(std::lower_bound(part.contacts.begin(),
-                                                            part.contacts.end(), port.constraint) -
-                                           part.contacts.begin());
+        port.constraint = static_cast<int>(
+            std::lower_bound(part.contacts.begin(), part.contacts.end(), port.constraint) -
+            part.contacts.begin());
       }
-      add_port_compliance(
-          ports, ports,
-          body.compliance(Body::Group::contact, 0, Body::Group::contact, 0), part.compliance);
+      add_port_compliance(ports, ports,
+                          body.compliance(Body::Group::contact, 0, Body::Group::contact, 0),
+                          part.compliance);
       mechanisms_[m].add_coupling(b, ports, joints_by_contacts, part.contacts_by_joints);
     }
     if (mechanisms_[m].unknowns() > 0 && size > 0) {
@@ -209,11 +217,13 @@ Eigen::VectorXd ConstraintSolver::solve_contacts(Problem& p,
                                                  const Eigen::VectorXd& u,
                                                  ConstraintStatistics& statistics) {
   const auto n = static_cast<int>(contacts_.size());
-  Eigen::VectorXd r(3 * n);
-  for (int c = 0; c < n; ++c) r.segment<3>(3 * c) = frames_[c].transpose() * forces_[c];
-  const Eigen::VectorXd start = r;
+  Eigen::VectorXd start(3 * n), r(3 * n);
+  for (int c = 0; c < n; ++c) {
+    start.segment<3>(3 * c) = frames_[c].transpose() * forces_[c];
+    r.segment<3>(3 * c) = frames_[c].transpose() * guesses_[c];
+  }
   FrictionProblem& f = p.friction;
-  f.q = u - compliance_times(f, r);
+  f.q = u - compliance_times(f, start);
   for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
     const Problem::Part& part = p.parts[m];
     if (joint_changes[m].size() == 0 || part.contacts.empty()) continue;
@@ -229,7 +239,7 @@ Eigen::VectorXd ConstraintSolver::solve_contacts(Problem& p,
   statistics.newton_steps += result.newton_steps;
   statistics.contact_error = result.error;
   statistics.complementarity = result.complementarity;
-  for (int c = 0; c < n; ++c) forces_[c] = frames_[c] * r.segment<3>(3 * c);
+  for (int c = 0; c < n; ++c) guesses_[c] = forces_[c] = frames_[c] * r.segment<3>(3 * c);
   for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
     const Problem::Part& part = p.parts[m];
     if (joint_changes[m].size() == 0) continue;
@@ -254,7 +264,8 @@ double ConstraintSolver::joint_tolerance(const Mechanism& m) const {
 }
 
 ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& contacts) {
-  constexpr int kMostIterations = 50, kPatience = 8;
+  constexpr int kMostIterations = 100, kPatience = 8;
+  constexpr double kSlow = 0.5, kStalled = 0.95;
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   place_contacts(contacts);
   ConstraintStatistics statistics;
@@ -271,8 +282,7 @@ ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& con
     bool joints_met = true;
     for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
       if (gaps[m].size() == 0) continue;
-      const double residual =
-          gaps[m].allFinite() ? gaps[m].cwiseAbs().maxCoeff() : std::nan("");
+      const double residual = gaps[m].allFinite() ? gaps[m].cwiseAbs().maxCoeff() : std::nan("");
       statistics.joint_residual = std::max(residual, statistics.joint_residual);
       joints_met = joints_met && residual <= joint_tolerance(mechanisms_[m]);
     }
@@ -287,15 +297,16 @@ ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& con
       statistics.converged = statistics.converged && met;
       break;
     }
-    if (statistics.iterations > kPatience && residual > 0.5 * last_residual) {
+    if (statistics.iterations > kPatience && residual > kSlow * last_residual) {
       // the bodies may have turned against each other since the matrix was made
       bool refreshed = false;
       for (Mechanism& m : mechanisms_) refreshed = m.refresh() || refreshed;
-      if (!refreshed) {  // rounding ends the progress
+      if (refreshed) {
+        problem.built = false;
+      } else if (residual > kStalled * last_residual) {  // rounding ends the progress
         statistics.converged = statistics.converged && residual <= options_.contact_tolerance;
         break;
       }
-      problem.built = false;
     }
     last_residual = residual;
     std::vector<Eigen::VectorXd> changes;

@@ -24,9 +24,9 @@ struct ConstraintStatistics {
   double joint_residual = 0;  ///< largest distance of a joint's points, per axis [m]
   int sweeps = 0;             ///< Gauss-Seidel sweeps of the contact solver, all calls
   int newton_steps = 0;
-  double contact_error = 0;     ///< of the last contact solve, relative
+  double contact_error = 0;  ///< of the last contact solve, relative
   double complementarity = 0;
-  double penetration = 0;       ///< left at the contacts [m]
+  double penetration = 0;  ///< left at the contacts [m]
   bool converged = true;
 };
 
@@ -77,7 +77,8 @@ class ConstraintSolver {
   std::vector<ContactPair> contacts_;
   std::vector<Mat3> frames_;              ///< columns: normal and two tangents
   std::vector<std::vector<Port>> ports_;  ///< by body
-  std::vector<Vec3> forces_;
+  std::vector<Vec3> forces_;              ///< on side a, world
+  std::vector<Vec3> guesses_;             ///< what the contact solver starts from
   std::map<ContactKey, Vec3> known_forces_;
 };
 

@@ -142,11 +142,11 @@ class Planner {
     if (spec.b) {
       joint.b = nearest_on_surface(*spec.b);
       if ((spec.a.point - spec.b->point).norm() > spec.tolerance)
-        throw error_at(spec.location,
-                       "the two points of the joint are " +
-                           to_text((spec.a.point - spec.b->point).norm()) +
-                           " m apart at the start, more than its tolerance of " +
-                           to_text(spec.tolerance) + " m; give both ends the same point");
+        throw error_at(spec.location, "the two points of the joint are " +
+                                          to_text((spec.a.point - spec.b->point).norm()) +
+                                          " m apart at the start, more than its tolerance of " +
+                                          to_text(spec.tolerance) +
+                                          " m; give both ends the same point");
       const Mat3 r = scene_.bodies[joint.a.body].rotation.matrix();
       joint.offset = r.transpose() * (place_of(joint.b, placed_[joint.b.body]) - a);
     } else {

@@ -48,9 +48,8 @@ int Mechanism::slot(int body, int node) const {
 Vec3 Mechanism::place(const Attachment& at, int stage) const {
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < at.count; ++i)
-    sum += at.weights[i] *
-           (*all_bodies_)[at.body].joint_position(
-               static_cast<std::size_t>(slot(at.body, at.nodes[i])), stage);
+    sum += at.weights[i] * (*all_bodies_)[at.body].joint_position(
+                               static_cast<std::size_t>(slot(at.body, at.nodes[i])), stage);
   return sum;
 }
 
@@ -62,8 +61,8 @@ Eigen::VectorXd Mechanism::gaps(double t, double dt) const {
     const Body& body = (*all_bodies_)[joint.a.body];
     for (int a = 0; a < stages_; ++a) {
       const Vec3 from = place(joint.a, a);
-      const Vec3 to = joint.to_world() ? joint.target(t + dt * body.stage_times()[a])
-                                       : place(joint.b, a);
+      const Vec3 to =
+          joint.to_world() ? joint.target(t + dt * body.stage_times()[a]) : place(joint.b, a);
       out.segment<3>(a * block + static_cast<Eigen::Index>(3 * j)) =
           body.rotation(a).transpose() * (to - from) - joint.offset;
     }
@@ -98,10 +97,10 @@ void Mechanism::factorise() {
     const std::vector<Port> ports = joint_ports(body);
     for (int a = 0; a < stages_ && !ports.empty(); ++a)
       for (int b = 0; b < stages_; ++b)
-        add_port_compliance(ports, ports,
-                            (*all_bodies_)[body].compliance(Body::Group::joint, a,
-                                                            Body::Group::joint, b),
-                            w.block(a * block, b * block, block, block));
+        add_port_compliance(
+            ports, ports,
+            (*all_bodies_)[body].compliance(Body::Group::joint, a, Body::Group::joint, b),
+            w.block(a * block, b * block, block, block));
   }
   factors_ = std::make_unique<Lu<double>>(std::move(w));
   fresh_ = true;

@@ -40,9 +40,10 @@ class Mechanism {
   void apply_forces();
 
   /// Displacements of the joints by unit contact forces at the ports of one of the bodies, and of
-  /// the contacts by unit joint forces, are added to the blocks (unknowns x 3 contacts, transposed).
-  void add_coupling(int body, const std::vector<Port>& contacts, Eigen::MatrixXd& joints_by_contacts,
-                    Eigen::MatrixXd& contacts_by_joints) const;
+  /// the contacts by unit joint forces, are added to the blocks (unknowns x 3 contacts,
+  /// transposed).
+  void add_coupling(int body, const std::vector<Port>& contacts,
+                    Eigen::MatrixXd& joints_by_contacts, Eigen::MatrixXd& contacts_by_joints) const;
 
  private:
   std::vector<Port> joint_ports(int body) const;

@@ -9,8 +9,8 @@ void add_port_compliance(const std::vector<Port>& rows, const std::vector<Port>&
       Mat3 block = Mat3::Zero();
       for (int k = 0; k < p.count; ++k)
         for (int l = 0; l < q.count; ++l)
-          block += p.weights[k] * q.weights[l] *
-                   compliance.block<3, 3>(3 * p.slots[k], 3 * q.slots[l]);
+          block +=
+              p.weights[k] * q.weights[l] * compliance.block<3, 3>(3 * p.slots[k], 3 * q.slots[l]);
       out.block<3, 3>(3 * p.constraint, 3 * q.constraint) +=
           p.sign * q.sign * (p.axes * block * q.axes.transpose());
     }

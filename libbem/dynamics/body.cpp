@@ -85,6 +85,7 @@ void Body::begin_step(SpectralState free, bool held) {
   if (elastic_) elastic_->begin_step(std::move(free), leak(held));
   contact_nodes_.clear();
   contact_forces_.resize(0);
+  contact_moment_.setZero();
   // until the first update() everything stays where it is
   const RigidFrame::Stages now = frame_.current();
   frame_stages_.translation.assign(stage_count_, now.translation[0]);
@@ -95,6 +96,7 @@ void Body::begin_step(SpectralState free, bool held) {
 void Body::set_contact_nodes(std::vector<int> nodes) {
   contact_nodes_ = std::move(nodes);
   contact_forces_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * contact_nodes_.size()));
+  contact_moment_.setZero();
   if (elastic_) elastic_->set_contact_nodes(contact_nodes_);
 }
 
@@ -126,7 +128,6 @@ Vec3 Body::joint_lever(std::size_t i, int stage) const {
 }
 
 FrameLoads Body::frame_loads() const {
-  const std::vector<Vec3>& x = shared_.model->geometry.nodes.vertices;
   FrameLoads out;
   for (int a = 0; a < stage_count_; ++a) {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
@@ -142,21 +143,19 @@ FrameLoads Body::frame_loads() const {
     out.forces.push_back(frame_stages_.rotation[a] * force);
     out.torques.push_back(frame_stages_.rotation[a] * torque);
   }
-  // contact forces act at the end position of their point, whichever stage the frame is at
-  const Vec3 end = frame_stages_.translation.back();
-  for (std::size_t i = 0; i < contact_nodes_.size(); ++i) {
-    const Vec3 f = contact_forces_.segment<3>(static_cast<Eigen::Index>(3 * i));
-    const Vec3 point =
-        end + frame_stages_.rotation.back() * (x[contact_nodes_[i]] + contact_displacement(i));
-    if (is_rigid()) {
-      out.impulse += dt_ * f;
-      out.angular_impulse += dt_ * (point - frame_.translation()).cross(f);
-      continue;
-    }
-    for (int a = 0; a < stage_count_; ++a) {
-      out.forces[a] += f;
-      out.torques[a] += (point - frame_stages_.translation[a]).cross(f);
-    }
+  Vec3 contact = Vec3::Zero();
+  for (std::size_t i = 0; i < contact_nodes_.size(); ++i)
+    contact += contact_forces_.segment<3>(static_cast<Eigen::Index>(3 * i));
+  if (is_rigid()) {
+    out.impulse = dt_ * contact;
+    out.angular_impulse = dt_ * contact_moment_;
+    return out;
+  }
+  // the points that contact forces act at stay where they are, whichever stage the frame is at
+  for (int a = 0; a < stage_count_; ++a) {
+    out.forces[a] += contact;
+    out.torques[a] +=
+        contact_moment_ - (frame_stages_.translation[a] - frame_.translation()).cross(contact);
   }
   return out;
 }
@@ -211,9 +210,8 @@ Eigen::MatrixXd Body::compliance(Group rows, int row_stage, Group columns, int l
         gain * frame_.inverse_inertia() *
         cross_matrix(anchored ? anchor_levers_[j] : x[node(columns, j)]);
   }
-  Eigen::MatrixXd out = elastic_
-                            ? elastic_->compliance(rows, row_stage, columns, load_stage)
-                            : Eigen::MatrixXd::Zero(3 * count(rows), 3 * count(columns));
+  Eigen::MatrixXd out = elastic_ ? elastic_->compliance(rows, row_stage, columns, load_stage)
+                                 : Eigen::MatrixXd::Zero(3 * count(rows), 3 * count(columns));
   const Mat3 shift = gain / frame_.mass() * Mat3::Identity();
   for (std::size_t i = 0; i < count(rows); ++i) {
     auto row = out.middleRows<3>(static_cast<Eigen::Index>(3 * i));
@@ -232,10 +230,10 @@ std::vector<Vec3> Body::end_positions() {
   std::vector<Vec3> out;
   out.reserve(x.size());
   for (std::size_t i = 0; i < x.size(); ++i)
-    out.push_back(frame_.place(
-        frame_stages_, stage_count_ - 1, x[i],
-        elastic_ ? Vec3(end_displacement_.segment<3>(static_cast<Eigen::Index>(3 * i)))
-                 : Vec3(Vec3::Zero())));
+    out.push_back(
+        frame_.place(frame_stages_, stage_count_ - 1, x[i],
+                     elastic_ ? Vec3(end_displacement_.segment<3>(static_cast<Eigen::Index>(3 * i)))
+                              : Vec3(Vec3::Zero())));
   return out;
 }
 
@@ -260,8 +258,8 @@ std::vector<Vec3> Body::node_positions() const {
   std::vector<Vec3> out;
   out.reserve(x.size());
   for (std::size_t i = 0; i < x.size(); ++i)
-    out.push_back(frame_.place(now, 0, x[i],
-                               displacement_.segment<3>(static_cast<Eigen::Index>(3 * i))));
+    out.push_back(
+        frame_.place(now, 0, x[i], displacement_.segment<3>(static_cast<Eigen::Index>(3 * i))));
   return out;
 }
 

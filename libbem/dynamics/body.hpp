@@ -12,7 +12,7 @@ namespace bem {
 struct SharedModel {
   std::shared_ptr<const BodyModel> model;
   std::shared_ptr<const ElasticSystem> system;
-  std::shared_ptr<const RowAssembler> assembler;     ///< if some body carries prescribed loads
+  std::shared_ptr<const RowAssembler> assembler;    ///< if some body carries prescribed loads
   std::shared_ptr<const NodalTractions> tractions;  ///< of the nodes that constraints may act on
 };
 
@@ -55,6 +55,10 @@ class Body {
   const std::vector<int>& contact_nodes() const { return contact_nodes_; }
   Eigen::MatrixXd& joint_forces() { return joint_forces_; }      ///< 3 per node x s [N]
   Eigen::VectorXd& contact_forces() { return contact_forces_; }  ///< 3 per node [N]
+  /// Moment of the contact forces about where the centre of mass is at the start of the step, in
+  /// world axes [N m]. It is given apart from them because both bodies of a contact must take the
+  /// same point of action, or angular momentum would be lost.
+  Vec3& contact_moment() { return contact_moment_; }
 
   /// Moves frame and constraint nodes under the current loads and forces, whose directions depend
   /// on the rotations of the last call. Returns how much these have changed [rad].
@@ -113,6 +117,7 @@ class Body {
   std::vector<int> contact_nodes_;
   Eigen::MatrixXd joint_forces_;
   Eigen::VectorXd contact_forces_;
+  Vec3 contact_moment_ = Vec3::Zero();
   RigidFrame::Stages frame_stages_;
   ElasticPart::Displacements node_displacements_;
   Eigen::VectorXd displacement_, end_displacement_;

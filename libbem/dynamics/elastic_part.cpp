@@ -95,8 +95,8 @@ Eigen::MatrixXd ElasticPart::response(const std::vector<int>& rows, int row_stag
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * rows.size(), 3 * columns.size());
   Eigen::MatrixXd offset = Eigen::MatrixXd::Zero(6, out.cols());
   for (std::size_t c = 0; c < initial.size(); ++c) {
-    const Complex factor =
-        initial[c].multiplicity() * (initial[c].right.transpose() * pattern.cast<Complex>()).value();
+    const Complex factor = initial[c].multiplicity() *
+                           (initial[c].right.transpose() * pattern.cast<Complex>()).value();
     out += (initial[c].left[row_stage] * factor *
             tractions_->response(static_cast<int>(c), rows, slots))
                .real();
@@ -104,8 +104,8 @@ Eigen::MatrixXd ElasticPart::response(const std::vector<int>& rows, int row_stag
     for (int k = 0; k < pattern.size(); ++k)
       offset -= offset_.gain()(row_stage, k) * (initial[c].left[k] * factor * z).real();
   }
-  offset -= (offset_.gain().row(row_stage) * pattern).value() *
-            tractions_->balanced_acceleration(slots);
+  offset -=
+      (offset_.gain().row(row_stage) * pattern).value() * tractions_->balanced_acceleration(slots);
   out.noalias() += rigid_columns(system_.model().geometry.nodes.vertices, rows) * offset;
   for (std::size_t j = 0; j < columns.size(); ++j)
     out.middleCols<3>(static_cast<Eigen::Index>(3 * j)) /= areas_[columns[j]];
@@ -169,8 +169,8 @@ NodalLoad ElasticPart::nodal_load(const NodalForces& forces) const {
   const int stages = system_.scheme().stages();
   NodalLoad load;
   std::vector<int> nodes;
-  std::merge(joint_nodes_.begin(), joint_nodes_.end(), contact_nodes_.begin(),
-             contact_nodes_.end(), std::back_inserter(nodes));
+  std::merge(joint_nodes_.begin(), joint_nodes_.end(), contact_nodes_.begin(), contact_nodes_.end(),
+             std::back_inserter(nodes));
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   load.stages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * nodes.size()), stages);
   const auto add = [&](const std::vector<int>& group, const Eigen::MatrixXd& values) {
@@ -222,7 +222,8 @@ void ElasticPart::end_step() {
   offset_.advance(end_.differences);
 }
 
-void ElasticPart::add_nodal_tractions(const NodalForces& forces, Eigen::Matrix3Xd& tractions) const {
+void ElasticPart::add_nodal_tractions(const NodalForces& forces,
+                                      Eigen::Matrix3Xd& tractions) const {
   const auto add = [&](const std::vector<int>& nodes, const auto& values) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       tractions.col(nodes[i]) +=

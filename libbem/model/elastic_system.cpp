@@ -54,8 +54,7 @@ void ElasticSystem::subtract_displacement_history(
       product.setZero();
       model_.h[model_.lag_index(k, m)]->multiply_add(inputs.data(), product.data(),
                                                      static_cast<int>(count));
-      for (Eigen::Index c = 0; c < count; ++c)
-        component_sums[moving[c]].col(m) -= product.col(c);
+      for (Eigen::Index c = 0; c < count; ++c) component_sums[moving[c]].col(m) -= product.col(c);
     }
   }
 }
@@ -98,8 +97,7 @@ std::vector<SpectralState> ElasticSystem::solve(
   for (const Eigen::MatrixXd& sums : component_sums) {
     stage_sums.push_back(Eigen::MatrixXd::Zero(sums.rows(), scheme().stages()));
     for (int m = 0; m < model_.components(); ++m)
-      stage_sums.back().noalias() +=
-          sums.col(m) * scheme().lag_components()[m].left.transpose();
+      stage_sums.back().noalias() += sums.col(m) * scheme().lag_components()[m].left.transpose();
   }
   std::vector<SpectralState> states(component_sums.size());
   for (std::size_t i = 0; i < scheme().initial_components().size(); ++i) {

@@ -146,7 +146,8 @@ std::vector<int> Simulation::touched_nodes(const std::vector<int>& users,
 /// The motion without new forces: products with the history, once for bodies of the same archive.
 void Simulation::begin_step() {
   for (std::size_t b = 0; b < bodies_.size(); ++b)
-    if (bodies_[b].is_rigid()) bodies_[b].begin_step({}, constraints_->is_held(static_cast<int>(b)));
+    if (bodies_[b].is_rigid())
+      bodies_[b].begin_step({}, constraints_->is_held(static_cast<int>(b)));
   for (const std::vector<int>& group : sharing_) {
     std::vector<const LagHistory*> histories;
     std::vector<Eigen::MatrixXd> sums;

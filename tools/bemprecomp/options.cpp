@@ -42,7 +42,9 @@ void add_matrix_options(CLI::App& app, Typed& t) {
                  "factor 0 < q <= 1 on the weights per lag, 1 for none; auto: the weakest that "
                  "makes the measured growth <= 1 (auto)")
       ->type_name("q");
-  app.add_option("--model", t.model, "dynamic, or rigid: geometry and mass alone; static is not supported yet (dynamic)")
+  app.add_option(
+         "--model", t.model,
+         "dynamic, or rigid: geometry and mass alone; static is not supported yet (dynamic)")
       ->type_name("NAME");
   app.add_option("--history-tol", o.history_tolerance,
                  "length of the history from the size of the weights beyond it")

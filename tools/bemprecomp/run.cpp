@@ -101,8 +101,8 @@ int run_precompute(const Options& o, Log& log) {
   if (!o.stats.empty()) stats.emplace(o.stats);
   if (o.model == ModelKind::dynamic)
     log.info(std::to_string(plan.geometry.nodes.vertices.size()) + " nodes, history of " +
-           std::to_string(plan.options.discretisation.history_length) + " steps, " +
-           bytes_text(plan.memory.peak) + " of memory");
+             std::to_string(plan.options.discretisation.history_length) + " steps, " +
+             bytes_text(plan.memory.peak) + " of memory");
 
   phases.begin("tables");
   const BodyModel model = precompute(std::move(plan.geometry), plan.options, phases.callback());

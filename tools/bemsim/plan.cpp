@@ -68,8 +68,8 @@ double memory_of(const std::vector<PlannedBody>& bodies, bool contact) {
     // half of an archive's matrices belong to surface loads: all of them are loaded where anything
     // may be touched, else some columns
     if (seen.insert(&archive).second)
-      bytes += static_cast<double>(archive.matrix_paths().size() / (contact ? 1 : 2)) * n * n *
-               entry;
+      bytes +=
+          static_cast<double>(archive.matrix_paths().size() / (contact ? 1 : 2)) * n * n * entry;
     const double prescribed = 3 * static_cast<double>(body.fixed + body.handled);
     double inputs = 6 + 2 * prescribed;
     for (const TractionSpec& load : body.spec->tractions)

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/measure.hpp"
-#include "simulation/simulation.hpp"
 #include "plan.hpp"
+#include "simulation/simulation.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
