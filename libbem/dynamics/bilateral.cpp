@@ -7,6 +7,9 @@
 
 #include <map>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+
 namespace bem {
 
 std::vector<PrescribedNode> prescribed_nodes(const BodyGeometry& geometry, const BodySpec& spec) {
@@ -56,8 +59,7 @@ BilateralConstraints::BilateralConstraints(std::vector<PrescribedNode> nodes, In
   }
 }
 
-void BilateralConstraints::activate(double step_end, const RigidFrame& frame,
-                                    const FrameOffset& offset) {
+void BilateralConstraints::activate(double step_end) {
   std::vector<int> active;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const HandleSpec* handle = nodes_[i].handle;
@@ -65,11 +67,17 @@ void BilateralConstraints::activate(double step_end, const RigidFrame& frame,
     if (!handle || !handle->release_time || step_end <= *handle->release_time * (1 + 1e-9))
       active.push_back(static_cast<int>(i));
   }
-  if (factorised_ && active == active_) return;
+  if (active == active_) return;
+  factorised_ = false;
   active_ = std::move(active);
   is_active_.assign(nodes_.size(), 0);
   for (int i : active_) is_active_[i] = 1;
-  if (!active_.empty()) factors_.compute(compliance(frame, offset));
+  hold_all_round_ = spread_out();
+}
+
+void BilateralConstraints::factorise(const RigidFrame& frame, const FrameOffset& offset) {
+  if (factorised_ || active_.empty()) return;
+  factors_.compute(compliance(frame, offset));
   factorised_ = true;
 }
 
@@ -87,7 +95,9 @@ Eigen::MatrixXd BilateralConstraints::compliance(const RigidFrame& frame,
         const int q = active_[j];
         // rigid displacement (translation, rotation) of the body by the tractions of node q
         Eigen::Matrix<double, 6, 3> rigid;
-        const double inertial = frame.position_by_acceleration()(a, b);
+        const StageMatrix& gain =
+            hold_all_round_ ? offset.gain() : frame.position_by_acceleration();
+        const double inertial = gain(a, b);
         rigid.topRows<3>() = inertial * areas_[q] / frame.mass() * Mat3::Identity();
         rigid.bottomRows<3>() = inertial * frame.inverse_inertia() * cross_matrix(moments_[q]);
         for (int c = 0; c < stages; ++c)
@@ -142,6 +152,32 @@ Eigen::MatrixXd BilateralConstraints::displacements(const SpectralState& state,
 Vec3 BilateralConstraints::target(std::size_t i, double t) const {
   const HandleSpec* handle = nodes_[i].handle;
   return handle ? motion_at(handle->motion, t).apply(start_[i]) : start_[i];
+}
+
+bool BilateralConstraints::spread_out() const {
+  constexpr double kThin = 1e-3;  // width over length of a row of nodes
+  Vec3 centre = Vec3::Zero();
+  for (int i : active_) centre += rest_[i] / static_cast<double>(active_.size());
+  Mat3 spread = Mat3::Zero();
+  for (int i : active_) spread += (rest_[i] - centre) * (rest_[i] - centre).transpose();
+  const Vec3 squares = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
+  return squares[1] > kThin * kThin * squares[2];
+}
+
+BilateralConstraints::Holder BilateralConstraints::holder(double t) const {
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+  for (int i : active_) {
+    from += start_[i] / static_cast<double>(active_.size());
+    to += target(i, t) / static_cast<double>(active_.size());
+  }
+  Mat3 covariance = Mat3::Zero();
+  for (int i : active_) covariance += (target(i, t) - to) * (start_[i] - from).transpose();
+  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  Holder h;
+  h.rotation = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+  h.translation = to - h.rotation * from;
+  return h;
 }
 
 void BilateralConstraints::correct(const Eigen::MatrixXd& gaps, Eigen::MatrixXd& tractions) const {

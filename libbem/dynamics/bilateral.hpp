@@ -32,8 +32,10 @@ class BilateralConstraints {
   const std::vector<PrescribedNode>& nodes() const { return nodes_; }
   const InputColumns& columns() const { return columns_; }
 
-  /// Chooses the constraints that hold at the end of a step; factorises when the choice changes.
-  void activate(double step_end, const RigidFrame& frame, const FrameOffset& offset);
+  /// Chooses the constraints that hold at the end of a step.
+  void activate(double step_end);
+  /// Factorises the compliance of the chosen constraints, if the choice has changed.
+  void factorise(const RigidFrame& frame, const FrameOffset& offset);
   bool any_active() const { return !active_.empty(); }
 
   /// Displacements of all prescribed nodes (unknowns x stages) in `state` plus the effect of nodal
@@ -51,6 +53,16 @@ class BilateralConstraints {
   /// World position that node i has to be at, at time t.
   Vec3 target(std::size_t i, double t) const;
 
+  /// Whether the active nodes leave the body no rigid motion: they are not on one line.
+  bool hold_all_round() const { return hold_all_round_; }
+  /// Rigid motion x -> rotation * x + translation that brings the active nodes from their start
+  /// to their targets at time t, as well as possible.
+  struct Holder {
+    Mat3 rotation;
+    Vec3 translation;
+  };
+  Holder holder(double t) const;
+
   /// Changes `tractions` so that the active nodes move by `gaps` (unknowns x stages, body axes
   /// [m]).
   void correct(const Eigen::MatrixXd& gaps, Eigen::MatrixXd& tractions) const;
@@ -64,7 +76,7 @@ class BilateralConstraints {
 
  private:
   Eigen::MatrixXd compliance(const RigidFrame& frame, const FrameOffset& offset) const;
-
+  bool spread_out() const;
   Eigen::Matrix<double, 6, 3> acceleration_difference(int c, int b, int q) const;
 
   std::vector<PrescribedNode> nodes_;
@@ -77,7 +89,7 @@ class BilateralConstraints {
   std::vector<Eigen::MatrixXcd> response_;  ///< rows of columns_.displacement at the nodes
   std::vector<int> active_;                 ///< indices into nodes_
   std::vector<char> is_active_;
-  bool factorised_ = false;
+  bool factorised_ = false, hold_all_round_ = false;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
 };
 

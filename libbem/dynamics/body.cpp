@@ -1,6 +1,7 @@
 #include "dynamics/body.hpp"
 
 #include "base/error.hpp"
+#include "dynamics/rotation.hpp"
 #include "dynamics/selection.hpp"
 
 #include <algorithm>
@@ -50,6 +51,8 @@ Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec
       dt_(dt),
       frame_(system_.scheme(), dt, shared.model->geometry.mass,
              initial_motion(spec, *shared.model, gravity), spec.frame == FrameMotion::stationary),
+      start_centre_(frame_.translation()),
+      start_rotation_(frame_.rotation()),
       offset_(system_.scheme(), dt) {
   const int stages = system_.scheme().stages();
   const auto n = static_cast<Eigen::Index>(3 * shared.model->nodes());
@@ -111,7 +114,7 @@ RigidFrame::Stages Body::move_frame(const std::vector<Mat3>& rotations) const {
     forces.push_back(rotations[a] * force);
     torques.push_back(rotations[a] * torque);
   }
-  return frame_.stages(forces, torques);
+  return frame_.stages(forces, torques, drag_);
 }
 
 /// How far the prescribed nodes are from their places, in body axes (unknowns x stages).
@@ -141,37 +144,79 @@ Eigen::MatrixXd Body::acceleration_differences(const SpectralState& state) const
   return e;
 }
 
-/// The window acts on rigid motion like a leak of (1-q)/dt. A free body has a slow leak besides, so
-/// that the small imbalance of the discretisation cannot accumulate.
+/// The window acts on slow motions like a shift of s by w, Delta(q)/dt = w: a drag on the rigid
+/// motion of a held body relative to its holder, and a leak of the offset. A free body has a slow
+/// leak besides, so that the small imbalance of the discretisation cannot accumulate.
 void Body::choose_leak() {
   constexpr double kLeakPerTraversal = 0.05;
   const BodyModel& m = *shared_.model;
-  const double window = (1 - m.window) / dt_;
+  const Scheme& scheme = system_.scheme();
+  const double lost = 1 - m.window;
+  const double window =
+      (scheme.is_multistep() ? lost + 0.5 * scheme.theta() * lost * lost : -std::log(m.window)) /
+      dt_;
   const double traversal = m.geometry.extent / m.discretisation.material.shear_speed();
   const bool held = constraints_ && constraints_->any_active();
   offset_.set_leak(held ? window : std::max(window, kLeakPerTraversal / traversal));
+  drag_.rate = held && constraints_->hold_all_round() ? window : 0;
+}
+
+/// Where the holder takes the body in the coming step.
+void Body::follow_holder() {
+  const int stage_count = system_.scheme().stages();
+  const double h = 0.01 * dt_;  // for rates of change
+  drag_.centre.clear();
+  drag_.velocity.clear();
+  drag_.angular_velocity.clear();
+  holder_rotations_.clear();
+  for (int a = 0; a < stage_count; ++a) {
+    const double t = stage_time(a);
+    const auto now = constraints_->holder(t), before = constraints_->holder(t - h),
+               after = constraints_->holder(t + h);
+    const Vec3& x = start_centre_;
+    drag_.centre.push_back(now.rotation * x + now.translation);
+    drag_.velocity.push_back(
+        ((after.rotation - before.rotation) * x + after.translation - before.translation) /
+        (2 * h));
+    drag_.angular_velocity.push_back(rotation_log(after.rotation * before.rotation.transpose()) /
+                                     (2 * h));
+    holder_rotations_.push_back(now.rotation * start_rotation_);
+  }
+}
+
+/// How far the frame is turned from the holder at the stages.
+void Body::set_lean(const std::vector<Mat3>& rotations, const std::vector<Vec3>& turns) {
+  drag_.rotation = rotations;
+  drag_.lean.clear();
+  for (std::size_t a = 0; a < rotations.size(); ++a)
+    drag_.lean.push_back(turns[a] + rotation_log(rotations[a] * holder_rotations_[a].transpose()));
 }
 
 void Body::solve_constraints() {
   constexpr int kMostIterations = 50;
   const double tolerance = 1e-11 * shared_.model->geometry.extent;
   const int stage_count = system_.scheme().stages();
-  choose_leak();
   if (constraints_) {
-    constraints_->activate(stage_time(stage_count - 1), frame_, offset_);
+    constraints_->activate(stage_time(stage_count - 1));
     constraints_->clear_inactive(tractions_);
   }
+  choose_leak();
+  if (constraints_) constraints_->factorise(frame_, offset_);
+  if (drag_.rate > 0) follow_holder();
   // Rotations enter the loads and the directions of the forces: iterate from the last ones.
   std::vector<Mat3> rotations(stage_count, frame_.rotation());
+  std::vector<Vec3> turns(stage_count, frame_.current().turn[0]);
   double last_residual = std::numeric_limits<double>::infinity();
   for (statistics_ = {};;) {
     ++statistics_.iterations;
     evaluate_loads(rotations);
+    if (drag_.rate > 0) set_lean(rotations, turns);
     stages_ = move_frame(rotations);
     double turn = 0;
     for (int a = 0; a < stage_count; ++a)
       turn = std::max(turn, (stages_.rotation[a] - rotations[a]).norm());
     rotations = stages_.rotation;
+    turns = stages_.turn;
     if (constraints_ && constraints_->any_active()) {
       SpectralState loaded = state_;
       for (const Load& load : loads_) system_.add_inputs(load.load->columns(), load.stages, loaded);

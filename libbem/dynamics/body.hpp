@@ -63,13 +63,19 @@ class Body {
   Eigen::MatrixXd gaps(const RigidFrame::Stages& stages, const Eigen::MatrixXd& displacements,
                        const Eigen::MatrixXd& offsets) const;
   void choose_leak();
+  void follow_holder();
+  void set_lean(const std::vector<Mat3>& rotations, const std::vector<Vec3>& turns);
 
   BodySpec spec_;
   SharedModel shared_;
   const ElasticSystem& system_;
   double dt_;
   RigidFrame frame_;
+  Vec3 start_centre_;
+  Mat3 start_rotation_;
   FrameOffset offset_;
+  RigidFrame::Drag drag_;
+  std::vector<Mat3> holder_rotations_;  ///< since the start, at the stages
   std::vector<Load> loads_;
   std::unique_ptr<BilateralConstraints> constraints_;
   LagHistory displacement_history_, acceleration_history_, traction_history_;

@@ -38,22 +38,51 @@ T RigidFrame::base(const T& now, const T& before) const {
   return ((1 + theta_) * now - 0.5 * theta_ * before) / (1 + 0.5 * theta_);
 }
 
-RigidFrame::Stages RigidFrame::stages(const std::vector<Vec3>& forces,
-                                      const std::vector<Vec3>& torques) const {
+/// Velocities and angular momenta at the stages. The drag is linear in both, up to `lean`.
+void RigidFrame::integrate_momenta(Stages& s, const std::vector<Vec3>& forces,
+                                   const std::vector<Vec3>& torques, const Drag& drag) const {
   const int count = static_cast<int>(stage_times_.size());
+  const double w = drag.rate;
   const Vec3 velocity = base(state_.velocity, previous_.velocity);
   const Vec3 position = base(state_.position, previous_.position);
   const Vec3 momentum = base(state_.angular_momentum, previous_.angular_momentum);
-  Stages s;
-  for (int i = 0; i < count; ++i) {
-    Vec3 v = velocity, l = momentum;
-    for (int j = 0; j < count; ++j) {
-      v += dt_ * integration_(i, j) / mass_ * forces[j];
-      l += dt_ * integration_(i, j) * torques[j];
+  std::vector<Vec3> v(count, velocity), l(count, momentum);
+  for (int j = 0; j < count; ++j) {
+    Vec3 acceleration = forces[j] / mass_, torque = torques[j];
+    if (w > 0) {
+      const double t = time() + stage_times_[j] * dt_;
+      acceleration += 2 * w * (drag.velocity[j] - t * gravity_) +
+                      w * w * (drag.centre[j] - 0.5 * t * t * gravity_ - position);
+      const Vec3 turning = 2 * w * drag.angular_velocity[j] - w * w * drag.lean[j];
+      torque += drag.rotation[j] * (inertia_ * (drag.rotation[j].transpose() * turning));
     }
-    s.velocity.push_back(v);
-    s.angular_momentum.push_back(l);
+    for (int i = 0; i < count; ++i) {
+      v[i] += dt_ * integration_(i, j) * acceleration;
+      l[i] += dt_ * integration_(i, j) * torque;
+    }
   }
+  s.velocity = v;
+  s.angular_momentum = l;
+  if (w == 0) return;
+  const StageMatrix one = StageMatrix::Identity(count, count);
+  const StageMatrix a = w * dt_ * integration_;
+  const StageMatrix linear = (one + 2 * a + a * a).inverse(), angular = (one + 2 * a).inverse();
+  for (int i = 0; i < count; ++i) {
+    s.velocity[i].setZero();
+    s.angular_momentum[i].setZero();
+    for (int j = 0; j < count; ++j) {
+      s.velocity[i] += linear(i, j) * v[j];
+      s.angular_momentum[i] += angular(i, j) * l[j];
+    }
+  }
+}
+
+RigidFrame::Stages RigidFrame::stages(const std::vector<Vec3>& forces,
+                                      const std::vector<Vec3>& torques, const Drag& drag) const {
+  const int count = static_cast<int>(stage_times_.size());
+  const Vec3 position = base(state_.position, previous_.position);
+  Stages s;
+  integrate_momenta(s, forces, torques, drag);
   for (int i = 0; i < count; ++i) {
     Vec3 x = position;
     for (int j = 0; j < count; ++j) x += dt_ * integration_(i, j) * s.velocity[j];

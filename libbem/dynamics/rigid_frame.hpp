@@ -35,9 +35,24 @@ class RigidFrame {
     std::vector<Vec3> turn;  ///< stationary frame: linear rotation vector [rad]
   };
 
+  /// Drag with rate w on the motion relative to a holder, m (2 w v + w^2 x) and the same for
+  /// rotation: what the window is for the rigid part of the motion of a body that is held.
+  struct Drag {
+    double rate = 0;  ///< w [1/s]; without it the rest is not used
+    // at the stages, world axes:
+    std::vector<Vec3> centre, velocity;  ///< centre of mass if the holder carried the body along
+    std::vector<Vec3> angular_velocity;  ///< of the holder
+    std::vector<Vec3> lean;      ///< rotation vector from the holder's to the frame's orientation
+    std::vector<Mat3> rotation;  ///< of the frame; this and `lean` as known before the step is
+  };
+
   /// Frame at the stages of the next step under forces [N] and torques about the centre of mass
   /// [N m] in world axes, gravity not included (one per stage).
-  Stages stages(const std::vector<Vec3>& forces, const std::vector<Vec3>& torques) const;
+  Stages stages(const std::vector<Vec3>& forces, const std::vector<Vec3>& torques,
+                const Drag& drag) const;
+  Stages stages(const std::vector<Vec3>& forces, const std::vector<Vec3>& torques) const {
+    return stages(forces, torques, Drag());
+  }
   /// Takes the last stage as the new state.
   void advance(const Stages& stages);
 
@@ -69,6 +84,8 @@ class RigidFrame {
   };
   template <class T>
   T base(const T& now, const T& before) const;
+  void integrate_momenta(Stages& s, const std::vector<Vec3>& forces,
+                         const std::vector<Vec3>& torques, const Drag& drag) const;
   void integrate_rotation(Stages& s) const;
 
   StageVector stage_times_;
