@@ -49,6 +49,12 @@ ConstraintSolver::ConstraintSolver(const JointPlan& plan, std::vector<Body>& bod
       mechanism_of_(bodies.size(), -1) {
   for (std::size_t m = 0; m < mechanisms_.size(); ++m)
     for (int b : mechanisms_[m].bodies()) mechanism_of_[b] = static_cast<int>(m);
+  for (const Body& body : bodies) start_centres_.push_back(body.frame().translation());
+}
+
+std::optional<Holder> ConstraintSolver::holder(int body) const {
+  if ((*bodies_)[body].model().window == 1) return std::nullopt;  // nothing depends on it
+  return mechanisms_[mechanism_of_[body]].holder(body, start_centres_[body], start_, dt_);
 }
 
 void ConstraintSolver::begin_step(double t, double dt) {

@@ -47,6 +47,8 @@ class ConstraintSolver {
   /// Chooses the joints that hold in the step from t to t + dt [s].
   void begin_step(double t, double dt);
   bool is_held(int body) const { return mechanisms_[mechanism_of_[body]].is_held(); }
+  /// What holds a body in the step, if its prescribed nodes leave it no rigid motion of its own.
+  std::optional<Holder> holder(int body) const;
 
   /// Finds the forces under which the bodies, which begin_step() must have started, meet all joints
   /// and the given contacts, and leaves the bodies updated. Starts from the forces of the last call
@@ -71,7 +73,8 @@ class ConstraintSolver {
   std::vector<Body>* bodies_;
   ConstraintOptions options_;
   std::vector<Mechanism> mechanisms_;
-  std::vector<int> mechanism_of_;  ///< by body
+  std::vector<int> mechanism_of_;   ///< by body
+  std::vector<Vec3> start_centres_;  ///< by body: centre of mass at the start of the simulation
   double start_ = 0, dt_ = 0;
 
   std::vector<ContactPair> contacts_;

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "contact/closest_points.hpp"
+#include "dynamics/rotation.hpp"
 #include "dynamics/selection.hpp"
 #include "mesh/describe.hpp"
 #include "scene/location.hpp"
@@ -11,6 +12,9 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 
 namespace bem {
 namespace {
@@ -211,6 +215,59 @@ bool Joint::is_active(double t) const {
 
 Vec3 Joint::target(double t) const {
   return handle ? motion_at(handle->motion, t).apply(place) : place;
+}
+
+namespace {
+
+/// Whether points are not on one line.
+bool spread_out(const std::vector<const Joint*>& joints) {
+  constexpr double kThin = 1e-3;  // width over length
+  Vec3 centre = Vec3::Zero();
+  for (const Joint* j : joints) centre += j->place / static_cast<double>(joints.size());
+  Mat3 spread = Mat3::Zero();
+  for (const Joint* j : joints) spread += (j->place - centre) * (j->place - centre).transpose();
+  const Vec3 squares = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
+  return squares[1] > kThin * kThin * squares[2];
+}
+
+/// x -> rotation x + translation that brings the starts of the joints to their targets at time t,
+/// as well as possible.
+std::pair<Mat3, Vec3> best_motion(const std::vector<const Joint*>& joints, double t) {
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+  std::vector<Vec3> targets;
+  for (const Joint* j : joints) {
+    targets.push_back(j->target(t));
+    from += j->place / static_cast<double>(joints.size());
+    to += targets.back() / static_cast<double>(joints.size());
+  }
+  Mat3 covariance = Mat3::Zero();
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    covariance += (targets[i] - to) * (joints[i]->place - from).transpose();
+  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  const Mat3 rotation =
+      svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+  return {rotation, to - rotation * from};
+}
+
+}  // namespace
+
+std::optional<Holder> holder_motion(const std::vector<const Joint*>& prescribed, const Vec3& centre,
+                                    double t, double dt, const StageVector& stage_times) {
+  if (prescribed.size() < 3 || !spread_out(prescribed)) return std::nullopt;
+  const double h = 0.01 * dt;  // for rates of change
+  Holder out;
+  for (Eigen::Index a = 0; a < stage_times.size(); ++a) {
+    const double time = t + stage_times[a] * dt;
+    const auto [now, shift] = best_motion(prescribed, time);
+    const auto [before, shift_before] = best_motion(prescribed, time - h);
+    const auto [after, shift_after] = best_motion(prescribed, time + h);
+    out.rotation.push_back(now);
+    out.centre.push_back(now * centre + shift);
+    out.velocity.push_back(((after - before) * centre + shift_after - shift_before) / (2 * h));
+    out.angular_velocity.push_back(rotation_log(after * before.transpose()) / (2 * h));
+  }
+  return out;
 }
 
 JointPlan plan_joints(const Scene& scene, const std::vector<const BodyGeometry*>& geometries) {

@@ -28,6 +28,12 @@ struct Joint {
   Vec3 target(double t) const;
 };
 
+/// The rigid motion of what holds a body, from the places of its prescribed nodes in a step from t
+/// over dt; nothing if they are on one line and leave the body a rigid motion. `centre`: where its
+/// centre of mass starts.
+std::optional<Holder> holder_motion(const std::vector<const Joint*>& prescribed, const Vec3& centre,
+                                    double t, double dt, const StageVector& stage_times);
+
 /// All joints of a scene, and the nodes that they act on: by body, ascending.
 struct JointPlan {
   std::vector<Joint> joints;

@@ -33,6 +33,15 @@ void Mechanism::activate(double t) {
   factors_.reset();
 }
 
+std::optional<Holder> Mechanism::holder(int body, const Vec3& centre, double t, double dt) const {
+  std::vector<const Joint*> prescribed;
+  for (int j : active_) {
+    const Joint& joint = plan_->joints[joints_[j]];
+    if (joint.prescribed && joint.a.body == body) prescribed.push_back(&joint);
+  }
+  return holder_motion(prescribed, centre, t, dt, (*all_bodies_)[body].stage_times());
+}
+
 /// Rotation that the forces of a joint are given in.
 const Mat3& Mechanism::axes(const Joint& joint) const {
   return (*all_bodies_)[joint.a.body].rotation(stages_ - 1);

@@ -27,6 +27,9 @@ class Mechanism {
   Eigen::Index unknowns() const { return static_cast<Eigen::Index>(3 * active_.size()) * stages_; }
   /// Whether an active joint connects it with the world.
   bool is_held() const { return held_; }
+  /// What the prescribed nodes of one of the bodies make it do in a step from t over dt, see
+  /// holder_motion(). `centre`: of the body's mass at the start of the simulation.
+  std::optional<Holder> holder(int body, const Vec3& centre, double t, double dt) const;
 
   /// How far the active joints are from being met in a step from `t` over `dt` [s]: unknowns [m].
   Eigen::VectorXd gaps(double t, double dt) const;

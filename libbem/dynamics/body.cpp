@@ -1,8 +1,10 @@
 #include "dynamics/body.hpp"
 
 #include "base/error.hpp"
+#include "dynamics/rotation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bem {
 namespace {
@@ -49,6 +51,7 @@ Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec
       stage_times_(shared.model->discretisation.scheme.stage_times()),
       frame_(shared.model->discretisation.scheme, dt, shared.model->geometry.mass,
              initial_motion(spec, *shared.model, gravity), spec.frame == FrameMotion::stationary),
+      start_rotation_(frame_.rotation()),
       joint_nodes_(std::move(joint_nodes)),
       anchor_levers_(hat_centroids(shared.model->geometry.nodes, joint_nodes_)) {
   if (shared_.system)
@@ -71,18 +74,49 @@ double Body::stage_time(int stage) const {
   return frame_.time() + dt_ * stage_times_[stage];
 }
 
-/// The window acts on rigid motion like a leak of (1-q)/dt. A free body has a slow leak besides, so
-/// that the small imbalance of the discretisation cannot accumulate.
+/// The window acts on slow motions like a shift of s by w, Delta(q)/dt = w.
+double Body::window_rate() const {
+  const BodyModel& m = *shared_.model;
+  const Scheme& scheme = m.discretisation.scheme;
+  const double lost = 1 - m.window;
+  return (scheme.is_multistep() ? lost + 0.5 * scheme.theta() * lost * lost : -std::log(m.window)) /
+         dt_;
+}
+
+/// The leak of the frame offset: the window. A free body has a slow leak besides, so that the small
+/// imbalance of the discretisation cannot accumulate.
 double Body::leak(bool held) const {
   constexpr double kLeakPerTraversal = 0.05;
   const BodyModel& m = *shared_.model;
-  const double window = (1 - m.window) / dt_;
   const double traversal = m.geometry.extent / m.discretisation.material.shear_speed();
-  return held ? window : std::max(window, kLeakPerTraversal / traversal);
+  return held ? window_rate() : std::max(window_rate(), kLeakPerTraversal / traversal);
 }
 
-void Body::begin_step(SpectralState free, bool held) {
+/// The window on the rigid motion of a held body: a drag relative to its holder.
+void Body::set_drag(const std::optional<Holder>& holder) {
+  drag_ = {};
+  if (is_rigid() || !holder || shared_.model->window == 1) return;
+  drag_.rate = window_rate();
+  drag_.centre = holder->centre;
+  drag_.velocity = holder->velocity;
+  drag_.angular_velocity = holder->angular_velocity;
+  holder_rotation_.clear();
+  for (const Mat3& r : holder->rotation) holder_rotation_.emplace_back(r * start_rotation_);
+}
+
+/// How far the frame is turned from its holder at the stages, by its last rotations and, in a
+/// stationary frame, turns.
+void Body::set_lean(const std::vector<Vec3>& turns) {
+  drag_.rotation = frame_stages_.rotation;
+  drag_.lean.clear();
+  for (int a = 0; a < stage_count_; ++a)
+    drag_.lean.push_back(turns[a] +
+                         rotation_log(drag_.rotation[a] * holder_rotation_[a].transpose()));
+}
+
+void Body::begin_step(SpectralState free, bool held, const std::optional<Holder>& holder) {
   if (elastic_) elastic_->begin_step(std::move(free), leak(held));
+  set_drag(holder);
   contact_nodes_.clear();
   contact_forces_.resize(0);
   contact_moment_.setZero();
@@ -90,6 +124,7 @@ void Body::begin_step(SpectralState free, bool held) {
   const RigidFrame::Stages now = frame_.current();
   frame_stages_.translation.assign(stage_count_, now.translation[0]);
   frame_stages_.rotation.assign(stage_count_, now.rotation[0]);
+  frame_stages_.turn.assign(stage_count_, now.turn[0]);
   end_known_ = false;
 }
 
@@ -167,7 +202,8 @@ double Body::update() {
       p.stages.col(a) = p.load.values(stage_time(a), frame_stages_.rotation[a]);
   if (elastic_) node_displacements_ = elastic_->displacements(loads_, nodal_forces());
   const std::vector<Mat3> last = frame_stages_.rotation;
-  frame_stages_ = frame_.stages(frame_loads());
+  if (drag_.rate > 0) set_lean(frame_stages_.turn);
+  frame_stages_ = frame_.stages(frame_loads(), drag_);
   double turn = 0;
   for (int a = 0; a < stage_count_; ++a)
     turn = std::max(turn, (frame_stages_.rotation[a] - last[a]).norm());
@@ -196,13 +232,15 @@ Eigen::MatrixXd Body::compliance(Group rows, int row_stage, Group columns, int l
   };
   const int stage = rows == Group::contact ? stage_count_ - 1 : row_stage;
   // position of the frame by a unit acceleration
+  const StageMatrix& gains =
+      drag_.rate > 0 ? elastic_->offset_gain() : frame_.position_by_acceleration();
   double gain = 0;
   if (columns == Group::joint)
-    gain = frame_.position_by_acceleration()(stage, load_stage);
+    gain = gains(stage, load_stage);
   else if (is_rigid())
     gain = dt_ * dt_ * stage_times_[stage];
   else
-    gain = frame_.position_by_acceleration().row(stage).sum();
+    gain = gains.row(stage).sum();
   Eigen::MatrixXd turn(3, 3 * count(columns));
   for (std::size_t j = 0; j < count(columns); ++j) {
     const bool anchored = columns == Group::joint && joint_nodes_[j].anchored;

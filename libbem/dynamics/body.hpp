@@ -24,6 +24,14 @@ struct JointNode {
   bool anchored = false;
 };
 
+/// What holds a body in the world: the rigid motion since the start that the prescribed places of
+/// its nodes describe, at the stages of a step.
+struct Holder {
+  std::vector<Mat3> rotation;
+  std::vector<Vec3> centre, velocity;  ///< of the body's centre of mass if it were carried along
+  std::vector<Vec3> angular_velocity;
+};
+
 /// One body in motion. A step: begin_step(), then update() until the forces of the constraints are
 /// right, then end_step(). Forces on joint nodes are in body axes and act stage by stage; forces on
 /// contact nodes are in world axes and constant over a step (for a rigid body an impulse at its
@@ -46,8 +54,9 @@ class Body {
   Eigen::MatrixXd history_sums() const { return elastic_->history_sums(loads_); }
 
   /// Starts a step from the displacements without new loads (rigid bodies: none). Joint forces
-  /// start from those of the last step. `held`: joints hold the body in the world.
-  void begin_step(SpectralState free, bool held);
+  /// start from those of the last step. `held`: joints hold the body in the world; `holder`: they
+  /// leave it no rigid motion but this.
+  void begin_step(SpectralState free, bool held, const std::optional<Holder>& holder);
   /// Chooses the nodes in contact; their forces are zero after it.
   void set_contact_nodes(std::vector<int> nodes);
 
@@ -102,7 +111,10 @@ class Body {
   Vec3 joint_lever(std::size_t i, int stage) const;
   Vec3 joint_displacement(std::size_t i, int stage) const;
   Vec3 contact_displacement(std::size_t i) const;
+  double window_rate() const;
   double leak(bool held) const;
+  void set_drag(const std::optional<Holder>& holder);
+  void set_lean(const std::vector<Vec3>& turns);
 
   BodySpec spec_;
   SharedModel shared_;
@@ -110,6 +122,9 @@ class Body {
   int stage_count_;
   StageVector stage_times_;
   RigidFrame frame_;
+  Mat3 start_rotation_;
+  FrameDrag drag_;
+  std::vector<Mat3> holder_rotation_;  ///< body to world axes if the holder carried it along
   std::optional<ElasticPart> elastic_;
   std::vector<PrescribedLoad> loads_;
   std::vector<JointNode> joint_nodes_;

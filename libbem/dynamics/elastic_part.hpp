@@ -55,6 +55,9 @@ class ElasticPart {
   /// Forces on contact nodes act at all stages: `load_stage` is ignored for them.
   Eigen::MatrixXd compliance(Group rows, int row_stage, Group columns, int load_stage) const;
 
+  /// d(offset)/d(acceleration) between stages [s^2].
+  const StageMatrix& offset_gain() const { return offset_.gain(); }
+
   /// All displacements at the end of the step, 3 per node [m].
   Eigen::VectorXd end_displacement(const std::vector<PrescribedLoad>& loads,
                                    const NodalForces& forces);

@@ -53,25 +53,52 @@ void RigidFrame::apply_impulse(const Stages& s, State& now, State& before) const
   if (!stationary_) before.rotation = rotation_exp(-dt_ * turning) * before.rotation;
 }
 
-RigidFrame::Stages RigidFrame::stages(const FrameLoads& loads) const {
+/// Velocities and angular momenta at the stages. The drag is linear in both, up to `lean`.
+void RigidFrame::integrate_momenta(const State& now, const State& before, const FrameLoads& loads,
+                                   const FrameDrag& drag, Stages& s) const {
+  const int count = static_cast<int>(stage_times_.size());
+  const double w = drag.rate;
+  const Vec3 position = base(now.position, before.position);
+  s.velocity.assign(count, base(now.velocity, before.velocity));
+  s.angular_momentum.assign(count, base(now.angular_momentum, before.angular_momentum));
+  for (int j = 0; j < count; ++j) {
+    Vec3 acceleration = loads.forces[j] / mass_, torque = loads.torques[j];
+    if (w > 0) {
+      const double t = time() + stage_times_[j] * dt_;
+      acceleration += 2 * w * (drag.velocity[j] - t * gravity_) +
+                      w * w * (drag.centre[j] - 0.5 * t * t * gravity_ - position);
+      const Vec3 turning = 2 * w * drag.angular_velocity[j] - w * w * drag.lean[j];
+      torque += drag.rotation[j] * (inertia_ * (drag.rotation[j].transpose() * turning));
+    }
+    for (int i = 0; i < count; ++i) {
+      s.velocity[i] += dt_ * integration_(i, j) * acceleration;
+      s.angular_momentum[i] += dt_ * integration_(i, j) * torque;
+    }
+  }
+  if (w == 0) return;
+  const std::vector<Vec3> v = s.velocity, l = s.angular_momentum;
+  const StageMatrix one = StageMatrix::Identity(count, count);
+  const StageMatrix a = w * dt_ * integration_;
+  const StageMatrix linear = (one + 2 * a + a * a).inverse(), angular = (one + 2 * a).inverse();
+  for (int i = 0; i < count; ++i) {
+    s.velocity[i].setZero();
+    s.angular_momentum[i].setZero();
+    for (int j = 0; j < count; ++j) {
+      s.velocity[i] += linear(i, j) * v[j];
+      s.angular_momentum[i] += angular(i, j) * l[j];
+    }
+  }
+}
+
+RigidFrame::Stages RigidFrame::stages(const FrameLoads& loads, const FrameDrag& drag) const {
   const int count = static_cast<int>(stage_times_.size());
   State now = state_, before = previous_;
   Stages s;
   s.impulse = loads.impulse;
   s.angular_impulse = loads.angular_impulse;
   apply_impulse(s, now, before);
-  const Vec3 velocity = base(now.velocity, before.velocity);
+  integrate_momenta(now, before, loads, drag, s);
   const Vec3 position = base(now.position, before.position);
-  const Vec3 momentum = base(now.angular_momentum, before.angular_momentum);
-  for (int i = 0; i < count; ++i) {
-    Vec3 v = velocity, l = momentum;
-    for (int j = 0; j < count; ++j) {
-      v += dt_ * integration_(i, j) / mass_ * loads.forces[j];
-      l += dt_ * integration_(i, j) * loads.torques[j];
-    }
-    s.velocity.push_back(v);
-    s.angular_momentum.push_back(l);
-  }
   for (int i = 0; i < count; ++i) {
     Vec3 x = position;
     for (int j = 0; j < count; ++j) x += dt_ * integration_(i, j) * s.velocity[j];

@@ -24,6 +24,17 @@ struct FrameLoads {
   Vec3 angular_impulse = Vec3::Zero();  ///< [N m s]
 };
 
+/// Drag with rate w on the motion relative to what holds a body, m (2 w v + w^2 x) and the same for
+/// rotation: what the window is for the rigid part of the motion.
+struct FrameDrag {
+  double rate = 0;  ///< w [1/s]; without it the rest is not used
+  // at the stages, world axes:
+  std::vector<Vec3> centre, velocity;  ///< centre of mass if the holder carried the body along
+  std::vector<Vec3> angular_velocity;  ///< of the holder
+  std::vector<Vec3> lean;              ///< rotation vector from the holder's orientation to ours
+  std::vector<Mat3> rotation;          ///< ours; this and `lean` as known before the step is
+};
+
 /// The rigid motion that a body's displacements are measured from, integrated with the time
 /// discretisation of the convolution quadrature. Its state holds the angular momentum, which is
 /// constant without torque whatever the inertia; the ballistic part of the motion is exact.
@@ -45,7 +56,7 @@ class RigidFrame {
   };
 
   /// Frame at the stages of the next step.
-  Stages stages(const FrameLoads& loads) const;
+  Stages stages(const FrameLoads& loads, const FrameDrag& drag = {}) const;
   /// Takes the last stage as the new state.
   void advance(const Stages& stages);
 
@@ -78,6 +89,8 @@ class RigidFrame {
   template <class T>
   T base(const T& now, const T& before) const;
   void apply_impulse(const Stages& s, State& now, State& before) const;
+  void integrate_momenta(const State& now, const State& before, const FrameLoads& loads,
+                         const FrameDrag& drag, Stages& s) const;
   void integrate_rotation(const State& now, const State& before, Stages& s) const;
 
   StageVector stage_times_;

@@ -73,6 +73,23 @@ Scheme Scheme::parse(const std::string& name) {
                                     "\"; use radau2, bdf1, bdf2 or theta:T with 0 <= T <= 1");
 }
 
+Scheme Scheme::windowed(double q) const {
+  require(q > 0 && q <= 1, "0 < q <= 1");
+  Scheme s = *this;
+  for (int a = 0; a < stages(); ++a) {
+    const double factor = std::pow(q, stage_times_[a] - 1);
+    for (InitialComponent& c : s.initial_) {
+      c.left[a] *= factor;
+      c.right[a] /= factor;
+    }
+    for (LagComponent& c : s.components_) {
+      c.left[a] *= factor;
+      c.right[a] /= factor;
+    }
+  }
+  return s;
+}
+
 StageMatrixC Scheme::delta(Complex zeta) const {
   StageMatrixC sum = delta_.back().cast<Complex>();
   for (int m = static_cast<int>(delta_.size()) - 2; m >= 0; --m)

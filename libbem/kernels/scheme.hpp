@@ -57,6 +57,11 @@ class Scheme {
   /// 1/(1 + theta/2) with y_base from the last two steps).
   const StageMatrix& integration() const { return integration_; }
 
+  /// The scheme that weighs the effect of stage b of a step on its stage a with q^(c_a - c_b), c
+  /// the stage times: with the factor q per lag the window is q^(t/dt) of the time t between the
+  /// two. Only the components change.
+  Scheme windowed(double q) const;
+
   StageMatrixC delta(Complex zeta) const;
   /// Delta(zeta) = sum_m delta_coefficients()[m] zeta^m.
   const std::vector<StageMatrix>& delta_coefficients() const { return delta_; }

@@ -25,7 +25,8 @@ void LagHistory::push(const Eigen::MatrixXd& stages) {
     for (Eigen::MatrixXd& values : ring_) values *= window_;
 }
 
-ElasticSystem::ElasticSystem(const BodyModel& model) : model_(model) {
+ElasticSystem::ElasticSystem(const BodyModel& model, double window)
+    : model_(model), window_(window), scheme_(model.discretisation.scheme.windowed(window)) {
   const int initial = static_cast<int>(scheme().initial_components().size());
   std::vector<Eigen::MatrixXcd> response;
   for (int i = 0; i < initial; ++i)
@@ -35,7 +36,7 @@ ElasticSystem::ElasticSystem(const BodyModel& model) : model_(model) {
 }
 
 LagHistory ElasticSystem::make_history(Eigen::Index inputs) const {
-  return LagHistory(scheme(), inputs, model_.discretisation.history_length, model_.window);
+  return LagHistory(scheme(), inputs, model_.discretisation.history_length, window_);
 }
 
 void ElasticSystem::subtract_displacement_history(
@@ -144,9 +145,11 @@ Eigen::MatrixXd ElasticSystem::acceleration_stages(const SpectralState& state) c
 
 InputColumns ElasticSystem::make_columns(std::vector<Eigen::MatrixXd> lags,
                                          const std::vector<Eigen::MatrixXcd>& initial) const {
-  const LaneLayout layout(scheme(), model_.discretisation.history_length);
+  const Scheme& unwindowed = model_.discretisation.scheme;
+  const LaneLayout layout(unwindowed, model_.discretisation.history_length);
   InputColumns columns;
-  columns.balanced_acceleration = model_.balance * static_columns(scheme(), layout, initial, lags);
+  columns.balanced_acceleration =
+      model_.balance * static_columns(unwindowed, layout, initial, lags);
   columns.lags = std::move(lags);
   for (std::size_t i = 0; i < initial.size(); ++i) {
     Eigen::MatrixXcd u = apply_inverse(static_cast<int>(i), initial[i]);

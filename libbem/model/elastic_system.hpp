@@ -54,7 +54,9 @@ struct SpectralState {
 /// motion. Refers to a model; holds no state of a motion.
 class ElasticSystem {
  public:
-  explicit ElasticSystem(const BodyModel& model);
+  explicit ElasticSystem(const BodyModel& model) : ElasticSystem(model, model.window) {}
+  /// With another window than the model's.
+  ElasticSystem(const BodyModel& model, double window);
 
   /// component_sums (3N x components) -= sum_k H_k u_{n-k} for several bodies of the same model.
   /// Reads every H_k once for all of them.
@@ -87,7 +89,8 @@ class ElasticSystem {
   }
   const RigidProjection& projection() const { return projection_; }
   const BodyModel& model() const { return model_; }
-  const Scheme& scheme() const { return model_.discretisation.scheme; }
+  /// The model's scheme, windowed.
+  const Scheme& scheme() const { return scheme_; }
   LagHistory make_history(Eigen::Index inputs) const;
 
   /// Columns from right-hand sides at lag 0 by initial component (3N x inputs) and at the later
@@ -102,6 +105,8 @@ class ElasticSystem {
   Eigen::MatrixXd stages(const std::vector<Eigen::VectorXcd>& spectral) const;
 
   const BodyModel& model_;
+  double window_;
+  Scheme scheme_;
   RigidProjection projection_;
   InputColumns body_force_;
 };

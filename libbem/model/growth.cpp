@@ -14,7 +14,7 @@ namespace {
 class FreeRecursion {
  public:
   explicit FreeRecursion(const BodyModel& model)
-      : system_(model),
+      : system_(model, 1),
         unknowns_(static_cast<Eigen::Index>(3 * model.nodes())),
         stages_(model.discretisation.scheme.stages()),
         length_(model.discretisation.history_length),

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 namespace bem {
 namespace {
@@ -280,6 +281,30 @@ bool single_precision(const PrecomputeOptions& options) {
          options.discretisation.quadrature_tolerance >= 1e-6;
 }
 
+/// The window that brings the measured growth down to 1. Throws if it would leave nothing of the
+/// body's motion.
+double automatic_window(const BodyModel& model) {
+  constexpr double kLeastLeft = 0.01, kRounding = 1e-6;
+  const double growth = model.report.growth;
+  if (growth <= 1) return 1;
+  const double window = (1 - kRounding) / growth;
+  if (std::pow(window, std::max(1.0, model.report.lam)) >= kLeastLeft) return window;
+  double edge = 0;
+  for (const Triangle& t : model.geometry.nodes.triangles)
+    for (int k = 0; k < 3; ++k)
+      edge = std::max(edge, (model.geometry.nodes.vertices[t[k]] -
+                             model.geometry.nodes.vertices[t[(k + 1) % 3]])
+                                .norm());
+  const Discretisation& d = model.discretisation;
+  throw Error(ErrorCode::numerical,
+              "motions grow by a factor of " + std::to_string(growth) +
+                  " per step, and a window that prevents it would leave nothing of them; use a "
+                  "larger --dt (a shear wave goes " +
+                  std::to_string(d.material.shear_speed() * d.dt / edge) +
+                  " of the longest edge in a step; sharp edges with a Poisson ratio near 0.5 need "
+                  "about 1), a finer mesh or a longer --history, or set --window yourself");
+}
+
 }  // namespace
 
 BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
@@ -302,9 +327,7 @@ BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
   if (options.measure_growth) {
     if (progress) progress("growth factor", 0);
     model.report.growth = growth_factor(model).factor;
-    // a hair below 1/growth, so that rounding cannot leave it above 1
-    if (options.window == 0 && model.report.growth > 1)
-      model.window = (1 - 1e-6) / model.report.growth;
+    if (options.window == 0) model.window = automatic_window(model);
   }
   return model;
 }

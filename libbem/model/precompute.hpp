@@ -17,7 +17,9 @@ struct PrecomputeOptions {
 /// Called with the name of each phase as it begins and the fraction of it that is done.
 using Progress = std::function<void(const std::string& phase, double fraction)>;
 
-/// Computes all matrices of a body. Bit-identical for any number of threads.
+/// Computes all matrices of a body. Bit-identical for any number of threads. Throws
+/// ErrorCode::numerical if the automatic window would leave less than a hundredth of a motion after
+/// the time that a shear wave takes across the body.
 /// Cost: assembly O(N^2), inversion O(N^3); memory as precompute_memory().
 BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
                      const Progress& progress = nullptr);

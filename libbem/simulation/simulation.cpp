@@ -145,9 +145,11 @@ std::vector<int> Simulation::touched_nodes(const std::vector<int>& users,
 
 /// The motion without new forces: products with the history, once for bodies of the same archive.
 void Simulation::begin_step() {
+  const auto begin = [&](int b, SpectralState free) {
+    bodies_[b].begin_step(std::move(free), constraints_->is_held(b), constraints_->holder(b));
+  };
   for (std::size_t b = 0; b < bodies_.size(); ++b)
-    if (bodies_[b].is_rigid())
-      bodies_[b].begin_step({}, constraints_->is_held(static_cast<int>(b)));
+    if (bodies_[b].is_rigid()) begin(static_cast<int>(b), {});
   for (const std::vector<int>& group : sharing_) {
     std::vector<const LagHistory*> histories;
     std::vector<Eigen::MatrixXd> sums;
@@ -158,8 +160,7 @@ void Simulation::begin_step() {
     const ElasticSystem& system = bodies_[group[0]].system();
     system.subtract_displacement_history(histories, sums);
     std::vector<SpectralState> states = system.solve(sums);
-    for (std::size_t i = 0; i < group.size(); ++i)
-      bodies_[group[i]].begin_step(std::move(states[i]), constraints_->is_held(group[i]));
+    for (std::size_t i = 0; i < group.size(); ++i) begin(group[i], std::move(states[i]));
   }
 }
 

@@ -1,0 +1,212 @@
+// Static limit: what is left of a loaded body when its vibration has decayed. Printed figures are
+// quoted in docs/accuracy.md, "Static limit".
+#include "assembly/laplace_assembly.hpp"
+#include "support/simulate.hpp"
+
+#include <cstdio>
+
+#include <catch2/catch.hpp>
+
+using namespace bem;
+using namespace bem_test;
+
+namespace {
+
+constexpr double kQuadrature = 1e-10;
+
+struct Setup {
+  TriangleMesh mesh;
+  Material material;
+  const char* scheme;
+  double lam;
+  double window = 1;
+  int steps = 1000;
+};
+
+/// Displacements (3 per node, nodes as in the geometry) after the steps, from the frame (where the
+/// body is also turned by the accumulated rounding of closed sums of pressures) or in a stationary
+/// one from the start.
+Eigen::VectorXd rest_displacement(const Setup& s, const BodyGeometry& g, const BodySpec& spec) {
+  PrecomputeOptions o = options_for(g, s.material, s.scheme, s.lam);
+  o.discretisation.quadrature_tolerance = kQuadrature;
+  o.window = s.window;
+  MemorySource source;
+  source.add("b", precompute(g, o));
+  Scene scene = one_body_scene(o.discretisation.dt);
+  const std::string name = scene.bodies[0].name;
+  const FilePath archive = scene.bodies[0].archive;
+  scene.bodies[0] = spec;
+  scene.bodies[0].name = name;
+  scene.bodies[0].archive = archive;
+  Simulation simulation(scene, source);
+  for (int n = 0; n < s.steps; ++n) simulation.step();
+  const Body& body = simulation.bodies()[0];
+  if (spec.frame == FrameMotion::moving) return body.displacement();
+  const std::vector<Vec3> x = body.positions();
+  Eigen::VectorXd u(3 * static_cast<Eigen::Index>(g.nodes.vertices.size()));
+  for (std::size_t v = 0; v < x.size(); ++v)
+    u.segment<3>(3 * g.node_of_vertex[v]) = x[v] - g.input.vertices[v];
+  return u;
+}
+
+/// u = A x for a free body under the tractions of the uniform stress sigma = C : A.
+Eigen::VectorXd linear_field(const BodyGeometry& g, const Mat3& a) {
+  Eigen::VectorXd u(3 * static_cast<Eigen::Index>(g.nodes.vertices.size()));
+  for (std::size_t i = 0; i < g.nodes.vertices.size(); ++i)
+    u.segment<3>(3 * static_cast<Eigen::Index>(i)) = a * g.nodes.vertices[i];
+  return u;
+}
+
+double relative(const Eigen::VectorXd& u, const Eigen::VectorXd& exact) {
+  return (u - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
+}
+
+TractionSpec pressure(double p) {
+  TractionSpec t;
+  t.load = p;
+  return t;
+}
+
+TractionSpec end_load(double x, const Vec3& traction) {
+  TractionSpec t;
+  t.select = box_selection(Vec3(x - 1e-6, -1, -1), Vec3(x + 1e-6, 1, 1));
+  t.load = traction;
+  return t;
+}
+
+/// Elastostatic solution for nodes fixed where x is least and a constant traction where it is
+/// largest, by the reference assembly at s = 0: H u - G t = load with nodal tractions t of the
+/// fixed nodes. Collocation alone leaves forces out of balance by the discretisation error;
+/// `balanced` demands balance and adds the uniform and linear body force that makes it possible.
+Eigen::VectorXd held_solution(const BodyGeometry& g, const Material& m, const Vec3& traction,
+                              bool balanced) {
+  const LaplaceMatrices at_rest = laplace_matrices(g.nodes, m, 0.0, kQuadrature);
+  double low = 0, high = 0;
+  for (const Vec3& x : g.nodes.vertices) {
+    low = std::min(low, x[0]);
+    high = std::max(high, x[0]);
+  }
+  const std::array<Eigen::Vector3cd, 3> none{Eigen::Vector3cd::Zero(), Eigen::Vector3cd::Zero(),
+                                             Eigen::Vector3cd::Zero()};
+  std::vector<std::array<Eigen::Vector3cd, 3>> loads(g.nodes.triangles.size(), none);
+  const auto n = static_cast<Eigen::Index>(3 * g.nodes.vertices.size());
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n + 6);
+  for (std::size_t t = 0; t < loads.size(); ++t) {
+    const Triangle& triangle = g.nodes.triangles[t];
+    const Vec3 centroid = triangle_centroid(g.nodes, triangle);
+    if (centroid[0] < high - 1e-6) continue;
+    loads[t].fill(traction.cast<Complex>());
+    right.segment<3>(n) -= triangle_area(g.nodes, triangle) * traction;
+    right.tail<3>() -= triangle_area(g.nodes, triangle) * centroid.cross(traction);
+  }
+  right.head(n) = laplace_corner_load(g.nodes, m, 0.0, kQuadrature, loads).real();
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 6, n + 6);
+  system.topLeftCorner(n, n) = at_rest.h.real();
+  std::vector<char> fixed(g.nodes.vertices.size(), 0);
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (g.nodes.vertices[i][0] > low + 1e-6) continue;
+    fixed[i] = 1;
+    const auto column = static_cast<Eigen::Index>(3 * i);
+    system.block(0, column, n, 3) = -at_rest.g.real().middleCols<3>(column);
+  }
+  if (!balanced) {
+    Eigen::VectorXd u = system.topLeftCorner(n, n).partialPivLu().solve(right.head(n));
+    for (std::size_t i = 0; i < fixed.size(); ++i)
+      if (fixed[i]) u.segment<3>(static_cast<Eigen::Index>(3 * i)).setZero();
+    return u;
+  }
+  system.block(0, n, n, 3) = -at_rest.d.real();
+  system.block(0, n + 3, n, 3) = -at_rest.q.real();
+  for (const Triangle& t : g.nodes.triangles) {
+    const double twelfth = triangle_area(g.nodes, t) / 12;
+    const Vec3 sum = g.nodes.vertices[t[0]] + g.nodes.vertices[t[1]] + g.nodes.vertices[t[2]];
+    for (const int v : t) {
+      if (!fixed[v]) continue;
+      system.block<3, 3>(n, 3 * v) += 4 * twelfth * Mat3::Identity();
+      system.block<3, 3>(n + 3, 3 * v) += twelfth * cross_matrix(sum + g.nodes.vertices[v]);
+    }
+  }
+  Eigen::VectorXd u = system.partialPivLu().solve(right).head(n);
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (fixed[i]) u.segment<3>(static_cast<Eigen::Index>(3 * i)).setZero();
+  return u;
+}
+
+BodySpec held_spec(const Vec3& traction) {
+  BodySpec spec;
+  spec.frame = FrameMotion::stationary;  // small rotations, as in the elastostatic solution
+  spec.fixed.push_back(box_selection(Vec3(-0.2 - 1e-6, -1, -1), Vec3(-0.2 + 1e-6, 1, 1)));
+  spec.tractions.push_back(end_load(0.2, traction));
+  return spec;
+}
+
+}  // namespace
+
+TEST_CASE("free bodies under balanced loads come to the exact elastostatic deformation") {
+  const Material m = material(1000, 1e6, 0.3);
+  const double lambda = 2 * m.shear_modulus * 0.3 / 0.4, young = 2.6 * m.shear_modulus;
+  const std::pair<const char*, double> schemes[] = {
+      {"radau2", 1.2}, {"bdf1", 0.3}, {"bdf2", 1.2}, {"theta:0.75", 1.2}};
+  for (const auto& [scheme, lam] : schemes) {
+    const Setup pressed{star(1, 0.4), m, scheme, lam};
+    const BodyGeometry g = geometry_of(pressed.mesh, m.density);
+    BodySpec spec;
+    spec.tractions.push_back(pressure(100));
+    const double bulk = lambda + 2 * m.shear_modulus / 3;
+    const double shrunk = relative(rest_displacement(pressed, g, spec),
+                                   linear_field(g, -100 / (3 * bulk) * Mat3::Identity()));
+
+    const Setup pulled{box(Vec3(0.4, 0.2, 0.2), {3, 2, 2}), m, scheme, lam};
+    const BodyGeometry b = geometry_of(pulled.mesh, m.density);
+    BodySpec ends;
+    ends.tractions = {end_load(0.2, Vec3(100, 0, 0)), end_load(-0.2, Vec3(-100, 0, 0))};
+    const Mat3 strain = 100 / young * Vec3(1, -0.3, -0.3).asDiagonal();
+    const double longer = relative(rest_displacement(pulled, b, ends), linear_field(b, strain));
+    std::printf("static %s: star under pressure %.1e, box pulled %.1e\n", scheme, shrunk, longer);
+    INFO(scheme);
+    CHECK(shrunk < 1e-9);
+    CHECK(longer < 1e-9);
+  }
+}
+
+TEST_CASE("held bodies come to the elastostatic solution of the same discretisation") {
+  const Vec3 traction(4e5, -6e5, 2e5);  // linear: the size only lowers the rounding
+  for (const double nu : {0.0, 0.3, 0.5}) {
+    const Setup s{
+        box(Vec3(0.4, 0.2, 0.2), {2, 1, 1}), material(1000, 1e6, nu), "bdf1", 0.3, 1, 1500};
+    const BodyGeometry g = geometry_of(s.mesh, 1000);
+    const BodySpec spec = held_spec(traction);
+    const Eigen::VectorXd u = rest_displacement(s, g, spec);
+    const double error = relative(u, held_solution(g, s.material, traction, true));
+    std::printf("static, held, nu %.1f: %.1e, without balance of forces %.1e\n", nu, error,
+                relative(u, held_solution(g, s.material, traction, false)));
+    INFO("nu " << nu);
+    CHECK(error < 1e-9);
+  }
+}
+
+TEST_CASE("a window changes the static limit little") {
+  const Material m = material(1000, 1e6, 0.3);
+  const Mat3 strain = -100 / (3 * (1.5e6 + 2e6 / 3)) * Mat3::Identity();
+  const TriangleMesh ball = icosphere(1, 0.4), bar = box(Vec3(0.4, 0.2, 0.2), {3, 2, 2});
+  const BodyGeometry g = geometry_of(ball, m.density), b = geometry_of(bar, m.density);
+  const Vec3 traction(0, 1e5, 0);
+  BodySpec spec;
+  spec.tractions.push_back(pressure(100));
+  const Eigen::VectorXd exact = held_solution(b, m, traction, true);
+  // a spring of stiffness rho w^2 per volume, w = (1-q)/dt: second order in 1-q
+  const std::tuple<const char*, double, double, double> limits[] = {
+      {"radau2", 0.99, 1.5e-5, 0.003}, {"radau2", 0.98, 6e-5, 0.01}, {"radau2", 0.96, 2.4e-4, 0.04},
+      {"bdf1", 0.99, 1.5e-5, 0.003},   {"bdf1", 0.98, 6e-5, 0.01},   {"bdf1", 0.96, 2.4e-4, 0.04}};
+  for (const auto& [scheme, q, free_limit, held_limit] : limits) {
+    const double free = relative(rest_displacement({ball, m, scheme, 3.5, q, 3000}, g, spec),
+                                 linear_field(g, strain));
+    const double held =
+        relative(rest_displacement({bar, m, scheme, 3.5, q, 4000}, b, held_spec(traction)), exact);
+    std::printf("static, %s, lam 3.5, window %.2f: free sphere %.1e, held bar %.1e\n", scheme, q,
+                free, held);
+    INFO(scheme << ", window " << q);
+    CHECK(free < free_limit);
+    CHECK(held < held_limit);
+  }
+}
