@@ -25,17 +25,17 @@ int interior_steps(const FrictionProblem& problem) {
 }  // namespace
 
 TEST_CASE("the interior point method solves hyperstatic problems in few steps") {
-  CHECK(interior_steps(test::stack_problem(1, 6, 0.4, 0.6)) < 15);
-  CHECK(interior_steps(test::stack_problem(6, 3, 0.5, 0.3)) < 15);
-  CHECK(interior_steps(test::wall_problem(4, 4, 0.7, 0.3)) < 25);
+  CHECK(interior_steps(test::stack_problem(1, 6, 0.4, 0.6)) <= 10);
+  CHECK(interior_steps(test::stack_problem(6, 3, 0.5, 0.3)) <= 10);
+  CHECK(interior_steps(test::wall_problem(4, 4, 0.7, 0.3)) <= 10);
 }
 
 TEST_CASE("the interior point method with no, little and mixed friction") {
-  CHECK(interior_steps(test::halfspace_problem(6, 0.1, 0.8, 1)) < 15);
-  CHECK(interior_steps(test::halfspace_problem(6, 0, 0, 1)) < 15);
+  CHECK(interior_steps(test::halfspace_problem(6, 0.1, 0.8, 1)) <= 10);
+  CHECK(interior_steps(test::halfspace_problem(6, 0, 0, 1)) <= 10);
   for (double low : {0.0, 1e-3}) {
     FrictionProblem mixed = test::stack_problem(3, 3, 0.5, 0.3);
     for (int i = 0; i < mixed.contacts(); i += 2) mixed.mu[i] = low;
-    CHECK(interior_steps(mixed) < 15);
+    CHECK(interior_steps(mixed) <= 10);
   }
 }
