@@ -9,14 +9,16 @@ namespace bem {
 namespace {
 
 constexpr double kSparseFill = 0.25;  ///< share of blocks below which sparse elimination is faster
-constexpr std::size_t kSparseSize = 40;  ///< contacts from which on it can be
+constexpr std::size_t kSparseSize = 40;    ///< contacts from which on it can be
+constexpr double kPivotThreshold = 0.1;    ///< sparse: share of the largest pivot that is enough
+constexpr std::size_t kDenseLimit = 2000;  ///< contacts of a dense system at most: 290 MB
+
+bool is_sparse(std::size_t contacts, std::size_t blocks) {
+  const double size = static_cast<double>(contacts);
+  return contacts >= kSparseSize && static_cast<double>(blocks) < kSparseFill * size * size;
+}
 
 }  // namespace
-
-struct BlockSystem::Dense {
-  std::unique_ptr<Lu<double>> lu;
-  mutable DenseMatrix<double> column;
-};
 
 struct BlockSystem::Sparse {
   using Matrix = Eigen::SparseMatrix<double>;
@@ -25,12 +27,16 @@ struct BlockSystem::Sparse {
 };
 
 BlockSystem::BlockSystem(const FrictionProblem& problem)
-    : problem_(problem),
-      position_(problem.contacts(), -1),
-      dense_(std::make_unique<Dense>()),
-      sparse_(std::make_unique<Sparse>()) {}
+    : problem_(problem), position_(problem.contacts(), -1), sparse_(std::make_unique<Sparse>()) {
+  sparse_->lu.setPivotThreshold(kPivotThreshold);
+}
 
 BlockSystem::~BlockSystem() = default;
+
+bool BlockSystem::fits(const FrictionProblem& problem) {
+  const std::size_t contacts = static_cast<std::size_t>(problem.contacts());
+  return contacts <= kDenseLimit || is_sparse(contacts, problem.blocks.size());
+}
 
 bool BlockSystem::factorise(const std::vector<int>& active, const std::vector<Mat3>& left,
                             const std::vector<Mat3>& own) {
@@ -45,13 +51,10 @@ bool BlockSystem::factorise(const std::vector<int>& active, const std::vector<Ma
   for (int i : active_)
     for (int k = problem_.row_start[i]; k < problem_.row_start[i + 1]; ++k)
       count += position_[problem_.columns[k]] >= 0;
-  const double size = static_cast<double>(active_.size());
-  const bool is_sparse =
-      active_.size() >= kSparseSize && static_cast<double>(count) < kSparseFill * size * size;
-  dense_->lu.reset();
-  if (is_sparse) return fill_sparse(left, own);
+  dense_.reset();
+  if (is_sparse(active_.size(), count)) return fill_sparse(left, own);
   fill_dense(left, own);
-  return dense_->lu != nullptr;
+  return dense_ != nullptr;
 }
 
 void BlockSystem::fill_dense(const std::vector<Mat3>& left, const std::vector<Mat3>& own) {
@@ -67,7 +70,7 @@ void BlockSystem::fill_dense(const std::vector<Mat3>& left, const std::vector<Ma
     m.block<3, 3>(row, row) += own[i];
   }
   try {
-    dense_->lu = std::make_unique<Lu<double>>(std::move(m));
+    dense_ = std::make_unique<Lu<double>>(std::move(m));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::numerical) throw;
   }
@@ -100,13 +103,13 @@ bool BlockSystem::fill_sparse(const std::vector<Mat3>& left, const std::vector<M
 
 void BlockSystem::solve(Eigen::VectorXd& b) const {
   if (active_.empty()) return;
-  if (!dense_->lu) {
+  if (!dense_) {
     b = sparse_->lu.solve(b).eval();
     return;
   }
-  dense_->column = b;
-  dense_->lu->solve(dense_->column);
-  b = dense_->column;
+  DenseMatrix<double> column = b;
+  dense_->solve(column);
+  b = column;
 }
 
 }  // namespace bem

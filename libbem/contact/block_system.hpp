@@ -6,6 +6,9 @@
 
 namespace bem {
 
+template <class T>
+class Lu;
+
 /// The linear systems of Newton's method for contact: over a subset of the contacts,
 ///
 ///     M_ij = left_i W_ij + delta_ij own_i          (3x3 blocks).
@@ -15,6 +18,9 @@ namespace bem {
 class BlockSystem {
  public:
   explicit BlockSystem(const FrictionProblem& problem);
+
+  /// Whether memory and time allow factorisations over all contacts of the problem.
+  static bool fits(const FrictionProblem& problem);
   ~BlockSystem();
 
   /// Factorises M over the contacts `active` (ascending), of which left and own are used; false if
@@ -26,7 +32,6 @@ class BlockSystem {
   void solve(Eigen::VectorXd& b) const;
 
  private:
-  struct Dense;
   struct Sparse;
   void fill_dense(const std::vector<Mat3>& left, const std::vector<Mat3>& own);
   bool fill_sparse(const std::vector<Mat3>& left, const std::vector<Mat3>& own);
@@ -34,7 +39,7 @@ class BlockSystem {
   const FrictionProblem& problem_;
   std::vector<int> active_, position_;  ///< per contact of the problem its place in active_ or -1
   bool analysed_ = false;               ///< the sparsity pattern is that of active_
-  std::unique_ptr<Dense> dense_;
+  std::unique_ptr<Lu<double>> dense_;
   std::unique_ptr<Sparse> sparse_;
 };
 

@@ -7,7 +7,7 @@ namespace bem {
 enum class FrictionMethod {
   staggered,  ///< projected Gauss-Seidel with staggered projections [Kaufman et al. 2008]
   nsgs,       ///< nonsmooth Gauss-Seidel with exact solves of one contact at a time
-  newton,     ///< semismooth Newton started from nonsmooth Gauss-Seidel sweeps
+  newton,     ///< a few nsgs sweeps, then semismooth Newton, with an interior point fallback
 };
 
 /// The error of forces r is the natural map of the problem, with the scale w_i of every contact's

@@ -32,23 +32,23 @@ InteriorPoint::InteriorPoint(const ContactSet& set, const Eigen::VectorXd& start
   scaled_.resize(n);
   for (double mu : p.mu)
     force_scale_.push_back(mu < kFrictionless ? Vec3(1, 0, 0) : Vec3(1 / mu, 1, 1));
+  // every contact is moved inside by the mean normal force and the mean displacement
   double mean_force = 0, mean_displacement = 0;
   for (int i = 0; i < n; ++i) {
-    mean_force += start[3 * i] / force_scale_[i][0] / n;
-    mean_displacement += (force_scale_[i].cwiseProduct(part(p.q, i))).norm() / n;
+    mean_force += start[3 * i] / n;
+    mean_displacement += part(p.q, i).norm() / n;
   }
-  mean_displacement = std::max(mean_displacement, 1e-6);
-  mean_force = std::max(mean_force, 1e-3 * mean_displacement);
+  mean_force = std::max(mean_force, mean_displacement);
   for (int i = 0; i < n; ++i) {
-    z_[3 * i] = start[3 * i] / force_scale_[i][0] + mean_force;
+    z_[3 * i] = (start[3 * i] + mean_force) / force_scale_[i][0];
     if (!frictionless(i)) z_.segment<2>(3 * i + 1) = start.segment<2>(3 * i + 1);
   }
   const Eigen::VectorXd r = forces();
   for (int i = 0; i < n; ++i) {
     const Vec3 u = displacement(p, i, r);
     if (!frictionless(i)) y_.segment<2>(3 * i + 1) = u.tail<2>();
-    y_[3 * i] = std::max(u[0] * force_scale_[i][0], 0.0) + y_.segment<2>(3 * i + 1).norm() +
-                mean_displacement;
+    y_[3 * i] = (std::max(u[0], 0.0) + mean_displacement) * force_scale_[i][0] +
+                y_.segment<2>(3 * i + 1).norm();
   }
 }
 

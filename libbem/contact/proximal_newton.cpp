@@ -16,6 +16,7 @@ constexpr std::size_t kMemory = 4;    ///< residuals that a step may rise to (no
 constexpr int kHalvings = 8;          ///< of a step at most
 constexpr double kDecrease = 1e-3;    ///< decrease of the residual asked for, relative to the step
 constexpr double kInexactness = 0.1;  ///< residual over proximal term at which a problem is solved
+constexpr int kCautious = 5;          ///< problems after a failure for which alpha falls slowly
 constexpr double kLeastAlpha = 1e-12, kLargestAlpha = 1e3;
 
 /// Residual of Alart and Curnier for one contact with tau = r - u / scale, in units of force:
@@ -178,7 +179,7 @@ int ProximalNewton::solve(double tolerance, double regularisation, const NewtonL
       recent_failures = std::max(0, recent_failures - 1);
     } else {
       ++failures;
-      recent_failures = 3;
+      recent_failures = kCautious;
       alpha_ = std::min(kLargestAlpha, 5 * alpha_);
     }
     if (solved || error < 0.5 * centre_error) {

@@ -14,6 +14,13 @@ constexpr int kStageSweeps = 20;    ///< sweeps of one staggered problem at most
 constexpr int kCheckInterval = 50;  ///< sweeps between evaluations of the error at most
 
 constexpr int kFirstSweeps = 20;  ///< Gauss-Seidel sweeps before Newton's method
+constexpr int kInteriorSteps = 100;
+constexpr double kPolishBelow =
+    1e-4;  ///< error of an interior point from which Newton may converge
+
+/// Regularisations of Newton's method where it starts: at first, near a solution, and on problems
+/// on which everything else failed.
+constexpr double kFirstAlpha = 1e-5, kPolishAlpha = 1e-6, kPatientAlpha = 1e-3;
 
 /// Interior point steps until a Newton polish from its iterate converges; returns linear solves.
 int interior_point_and_polish(const ContactSet& set, double tolerance, int max_steps,
@@ -22,7 +29,7 @@ int interior_point_and_polish(const ContactSet& set, double tolerance, int max_s
   NewtonLimits polish;
   polish.steps_per_goal = 8;
   polish.failures = 0;
-  double polish_below = 1e-4;
+  double polish_below = kPolishBelow;
   int steps = 0;
   while (best.error() > tolerance && steps < max_steps) {
     const bool moving = interior.step();
@@ -31,7 +38,7 @@ int interior_point_and_polish(const ContactSet& set, double tolerance, int max_s
     if (!moving || !std::isfinite(error)) break;
     if (best.error() > polish_below || best.error() <= tolerance) continue;
     polish.steps = std::min(12, max_steps - steps);
-    steps += newton.solve(tolerance, 1e-6, polish, best);
+    steps += newton.solve(tolerance, kPolishAlpha, polish, best);
     polish_below = 0.01 * std::min(polish_below, error);
   }
   return steps;
@@ -47,10 +54,13 @@ BestForces::BestForces(const ContactSet& set, const Eigen::VectorXd& start)
 }
 
 double BestForces::consider(const Eigen::VectorXd& forces) {
-  const double error = natural_map_norm(set_.problem, set_.scale, forces);
+  candidate_.resize(forces.size());
+  for (int i = 0; i < set_.problem.contacts(); ++i)
+    candidate_.segment<3>(3 * i) = project_cone(forces.segment<3>(3 * i), set_.problem.mu[i]);
+  const double error = natural_map_norm(set_.problem, set_.scale, candidate_);
   if (error < error_) {
     error_ = error;
-    forces_ = forces;
+    forces_.swap(candidate_);
   }
   return error;
 }
@@ -86,6 +96,7 @@ SetResult solve_nsgs(const ContactSet& set, double tolerance, const FrictionOpti
 
 SetResult solve_newton(const ContactSet& set, double tolerance, const FrictionOptions& options,
                        BestForces& best) {
+  if (!BlockSystem::fits(set.problem)) return solve_nsgs(set, tolerance, options, best);
   SetResult result;
   FrictionOptions first = options;
   first.max_sweeps = std::min(kFirstSweeps, options.max_sweeps);
@@ -96,13 +107,14 @@ SetResult solve_newton(const ContactSet& set, double tolerance, const FrictionOp
   attempt.steps_per_goal = 12;
   attempt.failures = 0;
   int& steps = result.newton_steps;
-  steps = newton.solve(tolerance, 1e-5, attempt, best);
+  steps = newton.solve(tolerance, kFirstAlpha, attempt, best);
   if (best.error() > tolerance)
     steps += interior_point_and_polish(
-        set, tolerance, std::min(100, options.max_newton_steps - steps), newton, best);
+        set, tolerance, std::min(kInteriorSteps, options.max_newton_steps - steps), newton, best);
   NewtonLimits rest;
+  rest.steps_per_goal = 16;
   rest.steps = options.max_newton_steps - steps;
-  if (best.error() > tolerance) steps += newton.solve(tolerance, 1e-3, rest, best);
+  if (best.error() > tolerance) steps += newton.solve(tolerance, kPatientAlpha, rest, best);
   result.error = best.error();
   return result;
 }

@@ -11,19 +11,20 @@ struct SetResult {
   double error = 0;  ///< of the returned forces
 };
 
-/// Keeps the forces with the least error.
+/// Keeps the forces with the least error, inside the friction cones.
 class BestForces {
  public:
   BestForces(const ContactSet& set, const Eigen::VectorXd& start);
 
-  /// Evaluates the error of `forces` and keeps them if it is the least so far; returns it.
+  /// Projects `forces` onto the friction cones, evaluates the error there and keeps them if it is
+  /// the least so far; returns it.
   double consider(const Eigen::VectorXd& forces);
   double error() const { return error_; }
   const Eigen::VectorXd& forces() const { return forces_; }
 
  private:
   const ContactSet& set_;
-  Eigen::VectorXd forces_;
+  Eigen::VectorXd forces_, candidate_;
   double error_;
 };
 
