@@ -41,7 +41,8 @@ class EdgePair {
       return contact(*start);
     if (const auto hit = first_hit()) return contact(*hit);
     const std::optional<Approach> end = approach(1);
-    if (end && end->gap >= -limits_.tolerance && end->gap < limits_.margin) return contact(*end);
+    if (end && end->gap >= -limits_.recovery_depth && end->gap < limits_.margin)
+      return contact(*end);
     return std::nullopt;
   }
 
@@ -88,8 +89,9 @@ class EdgePair {
     return std::nullopt;
   }
 
-  /// Right beside a vertex of one edge, is that vertex less deep below a face at the other edge
-  /// than the edges are in each other? Then it is pushed out there: see vertex_contacts.cpp.
+  /// Right beside a vertex of one edge, does that vertex lie over a face at the other edge, less
+  /// deep below it than the edges are in each other? Then it is pushed out there, as in
+  /// vertex_contacts.cpp.
   bool is_held_beside(const Approach& x, double gap_end) const {
     return is_held_beside(a_, ends_a_, x.s, b_, edge_b_, x.normal, x.time, gap_end) ||
            is_held_beside(b_, ends_b_, x.u, a_, edge_a_, -x.normal, x.time, gap_end);
@@ -104,9 +106,10 @@ class EdgePair {
     const SurfaceTopology::Edge& e = y.topology->edges[edge_y];
     for (int triangle : e.triangles) {
       if (triangle < 0) continue;
-      const Vec3 n = triangle_normal(y, triangle, t);
-      if (n.dot(normal) < kSameSide && faces(x, v, t, n) &&
-          n.dot(x.vertex(v, 1) - y.vertex(e.vertices[0], 1)) >
+      const TrianglePlace place = place_at_triangle(x.vertex(v, t), y, triangle, t);
+      if (place.normal.dot(normal) < kSameSide && place.overhang <= 3 * limits_.tolerance &&
+          is_tip(x, v, t, place.normal) &&
+          place.normal.dot(x.vertex(v, 1) - y.vertex(e.vertices[0], 1)) >
               std::min(gap_end, -kRim * limits_.margin))
         return true;
     }

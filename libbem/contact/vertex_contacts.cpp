@@ -19,17 +19,9 @@ constexpr double kSameDirection = 0.9998;  ///< cosine above which two normals a
 
 constexpr double kRim = 0.1;  ///< of the margin
 
-/// The vertex and one triangle at one time.
-struct Place {
-  TrianglePoint closest;
-  Vec3 normal;
-  double height = 0;    ///< above the triangle's plane [m]
-  double overhang = 0;  ///< how far its foot on the plane lies outside the triangle [m]
-};
-
 struct Candidate {
   int triangle;
-  Place start, end;
+  TrianglePlace start, end;
 };
 
 /// A triangle that may hold the vertex.
@@ -56,7 +48,8 @@ class VertexContacts {
   void add(const int* first, const int* last, std::vector<Contact>& contacts) {
     candidates_.reserve(last - first);
     for (; first != last; ++first)
-      candidates_.push_back({*first, place(*first, 0, start_), place(*first, 1, end_)});
+      candidates_.push_back({*first, place_at_triangle(start_, b_, *first, 0),
+                             place_at_triangle(end_, b_, *first, 1)});
     propose_entered();
     propose_near();
     for (const Proposal& p : proposals_)
@@ -65,17 +58,6 @@ class VertexContacts {
   }
 
  private:
-  Place place(int triangle, double t, const Vec3& at) const {
-    const auto [p, q, r] = b_.triangle(triangle, t);
-    Place result;
-    result.closest = closest_on_triangle(at, p, q, r);
-    result.normal = triangle_normal(b_, triangle, t);
-    const Vec3 between = at - result.closest.point;
-    result.height = result.normal.dot(between);
-    result.overhang = (between - result.height * result.normal).norm();
-    return result;
-  }
-
   /// Triangles the vertex touches at the start or goes through later, the earliest first.
   void propose_entered() {
     double nearest = 0;
@@ -114,7 +96,7 @@ class VertexContacts {
     return normal.dot(start_ - closest.point) < 0;
   }
 
-  bool touches_at_start(const Place& start, bool inside, double nearest) const {
+  bool touches_at_start(const TrianglePlace& start, bool inside, double nearest) const {
     if (start.height > limits_.tolerance || start.height < -limits_.recovery_depth) return false;
     if (start.height >= -limits_.tolerance && start.overhang <= inclusive_) return true;
     return inside && (start_ - start.closest.point).norm() <=
@@ -131,7 +113,7 @@ class VertexContacts {
     for (int i = 0; i < crossings.count; ++i) {
       const double time = crossings.at[i].time;
       if (!crossings.at[i].falling) continue;
-      const Place hit = place(c.triangle, time, a_.vertex(vertex_, time));
+      const TrianglePlace hit = place_at_triangle(a_.vertex(vertex_, time), b_, c.triangle, time);
       if (hit.overhang > inclusive_) continue;
       propose_hit(c, time, hit);
       return;
@@ -140,7 +122,7 @@ class VertexContacts {
 
   /// The triangle beyond a sharp convex edge of `triangle` that the place is right beside, if the
   /// vertex can as well be pushed out on that side; null without one.
-  const Candidate* beyond_edge(int triangle, const Place& place, double t) const {
+  const Candidate* beyond_edge(int triangle, const TrianglePlace& place, double t) const {
     const Triangle& corners = b_.topology->triangles[triangle];
     for (int k = 0; k < 3; ++k) {
       const auto& sides = b_.topology->edges[b_.topology->triangle_edges[triangle][k]].triangles;
@@ -151,7 +133,7 @@ class VertexContacts {
       const double altitude = (q - p).cross(r - p).norm() / (q - p).norm();
       if (place.closest.weights[(k + 2) % 3] * altitude > rim_) continue;
       const Vec3 n = triangle_normal(b_, other, t);
-      if (n.dot(r - p) >= 0 || n.dot(place.normal) > kSameSide || !faces(a_, vertex_, t, n))
+      if (n.dot(r - p) >= 0 || n.dot(place.normal) > kSameSide || !is_tip(a_, vertex_, t, n))
         continue;
       const auto found = std::find_if(candidates_.begin(), candidates_.end(),
                                       [&](const Candidate& c) { return c.triangle == other; });
@@ -162,7 +144,7 @@ class VertexContacts {
 
   /// The vertex enters the surface at `hit`. Right beside a sharp edge it is pushed out on the
   /// side where it ends less deep, so that bodies set flush do not catch on each other.
-  void propose_hit(const Candidate& c, double time, const Place& hit) {
+  void propose_hit(const Candidate& c, double time, const TrianglePlace& hit) {
     const Candidate* beyond = beyond_edge(c.triangle, hit, time);
     const bool shorter = beyond && beyond->end.normal.dot(end_ - beyond->end.closest.point) >
                                        c.end.normal.dot(end_ - c.end.closest.point);
