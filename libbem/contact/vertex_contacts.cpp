@@ -28,8 +28,10 @@ struct Candidate {
 struct Proposal {
   double time;  ///< of the impact; 1 if it only ends near
   Vec3 normal;  ///< of the triangle at that time
+  int triangle;
+  std::array<double, 3> weights;  ///< of the point in it
+  Vec3 point;                     ///< that point at the end
   double gap_end;
-  const Candidate* candidate;
 };
 
 class VertexContacts {
@@ -70,8 +72,8 @@ class VertexContacts {
       }
     }
     std::sort(proposals_.begin(), proposals_.end(), [](const Proposal& x, const Proposal& y) {
-      return std::make_tuple(x.time, -x.gap_end, x.candidate->triangle) <
-             std::make_tuple(y.time, -y.gap_end, y.candidate->triangle);
+      return std::make_tuple(x.time, -x.gap_end, x.triangle) <
+             std::make_tuple(y.time, -y.gap_end, y.triangle);
     });
   }
 
@@ -155,26 +157,39 @@ class VertexContacts {
   }
 
   /// The vertex has entered the surface through triangle c at `time`, at its point `weights`; it is
-  /// held by the triangle under its end that can be reached from there without a steep way, or else
-  /// by c.
+  /// held by the nearest triangle under its end that is reached from there without a steep way, or
+  /// else where it entered.
   void propose_at_end(const Candidate& c, double time, const std::array<double, 3>& weights) {
     const Vec3 entered = triangle_normal(b_, c.triangle, time);
     const auto [p, q, r] = b_.triangle(c.triangle, 1);
     const Vec3 entry = weights[0] * p + weights[1] * q + weights[2] * r;
-    Proposal best{time, entered, entered.dot(end_ - c.end.closest.point), &c};
-    double nearest = c.end.overhang <= inclusive_ ? std::abs(c.end.height)
-                                                  : std::numeric_limits<double>::infinity();
+    const Candidate* under = nullptr;
+    Vec3 normal = entered;
     for (const Candidate& other : candidates_) {
-      if (other.end.overhang > inclusive_ || !(std::abs(other.end.height) < nearest)) continue;
-      const Vec3 normal = triangle_normal(b_, other.triangle, time);
-      const Vec3 way = other.end.closest.point - entry;
-      if (normal.dot(entered) < kSameSide ||
-          std::abs(entered.dot(way)) > kSteepest * way.norm() + limits_.tolerance)
+      if (other.end.overhang > inclusive_ ||
+          (under && std::abs(other.end.height) >= std::abs(under->end.height)))
         continue;
-      nearest = std::abs(other.end.height);
-      best = {time, normal, normal.dot(end_ - other.end.closest.point), &other};
+      const Vec3 n = triangle_normal(b_, other.triangle, time);
+      const Vec3 way = other.end.closest.point - entry;
+      if (n.dot(entered) < kSameSide ||
+          std::abs(entered.dot(way)) > kSteepest * way.norm() + limits_.tolerance ||
+          !faces(a_, vertex_, time, n))
+        continue;
+      under = &other;
+      normal = n;
     }
-    if (best.gap_end < limits_.margin) proposals_.push_back(best);
+    if (under)
+      propose(time, normal, under->triangle, under->end.closest.weights);
+    else
+      propose(time, entered, c.triangle, weights);
+  }
+
+  void propose(double time, const Vec3& normal, int triangle,
+               const std::array<double, 3>& weights) {
+    const auto [p, q, r] = b_.triangle(triangle, 1);
+    const Vec3 point = weights[0] * p + weights[1] * q + weights[2] * r;
+    const double gap = normal.dot(end_ - point);
+    if (gap < limits_.margin) proposals_.push_back({time, normal, triangle, weights, point, gap});
   }
 
   /// Triangles the vertex ends above, the nearest first.
@@ -186,12 +201,11 @@ class VertexContacts {
         continue;
       const Candidate* beyond = beyond_edge(c.triangle, c.end, 1);
       if (!beyond || beyond->end.normal.dot(end_ - beyond->end.closest.point) < -rim_)
-        proposals_.push_back({1, c.end.normal, c.end.height, &c});
+        propose(1, c.end.normal, c.triangle, c.end.closest.weights);
     }
     std::sort(proposals_.begin() + entered, proposals_.end(),
               [](const Proposal& x, const Proposal& y) {
-                return std::tie(x.gap_end, x.candidate->triangle) <
-                       std::tie(y.gap_end, y.candidate->triangle);
+                return std::tie(x.gap_end, x.triangle) < std::tie(y.gap_end, y.triangle);
               });
   }
 
@@ -199,7 +213,7 @@ class VertexContacts {
   /// in front of the others and they in front of it?
   bool is_needed(const Proposal& p) const {
     for (const Proposal& q : accepted_)
-      if (q.candidate == p.candidate || p.normal.dot(q.normal) > kSameDirection ||
+      if (q.triangle == p.triangle || p.normal.dot(q.normal) > kSameDirection ||
           !is_in_front(p, q) || !is_in_front(q, p))
         return false;
     return true;
@@ -208,24 +222,23 @@ class VertexContacts {
   /// Is what x holds the vertex above in front of y? Where both are at one place, the whole
   /// triangles tell.
   bool is_in_front(const Proposal& x, const Proposal& y) const {
-    const Vec3& at = y.candidate->end.closest.point;
-    const Vec3 way = x.candidate->end.closest.point - at;
+    const Vec3 way = x.point - y.point;
     if (way.norm() > 10 * inclusive_) return y.normal.dot(way) >= -limits_.tolerance;
-    const auto [p, q, r] = b_.triangle(x.candidate->triangle, 1);
-    return y.normal.dot((p + q + r) / 3 - at) > 0;
+    const auto [p, q, r] = b_.triangle(x.triangle, 1);
+    return y.normal.dot((p + q + r) / 3 - y.point) > 0;
   }
 
   Contact contact(const Proposal& p) const {
-    const Triangle& t = b_.topology->triangles[p.candidate->triangle];
+    const Triangle& t = b_.topology->triangles[p.triangle];
     Contact c;
     c.a = {a_.index, 1, {vertex_, -1, -1}, {1, 0, 0}};
-    c.b = {b_.index, 3, t, p.candidate->end.closest.weights};
+    c.b = {b_.index, 3, t, p.weights};
     c.normal = p.normal;
-    c.point = p.candidate->end.closest.point;
+    c.point = p.point;
     c.offset_start = start_ - c.b.place(*b_.start);
     c.gap_start = c.normal.dot(c.offset_start);
     c.gap_end = p.gap_end;
-    c.key = {a_.index, b_.index, ContactKind::vertex_triangle, vertex_, p.candidate->triangle};
+    c.key = {a_.index, b_.index, ContactKind::vertex_triangle, vertex_, p.triangle};
     return c;
   }
 
