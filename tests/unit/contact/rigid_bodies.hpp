@@ -42,8 +42,7 @@ class RigidBodies {
   }
 
   void step() {
-    if (!detector_)
-      detector_ = std::make_unique<CollisionDetector>(surfaces_, planes, options);
+    if (!detector_) detector_ = std::make_unique<CollisionDetector>(surfaces_, planes, options);
     start_ = positions(false);
     for (Body& b : bodies_) {
       b.velocity += time_step * gravity;
@@ -74,10 +73,11 @@ class RigidBodies {
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
       for (std::size_t j = 0; j < surfaces_.size(); ++j)
         if (i != j && (i < bodies_.size() || j < bodies_.size()))
-          deepest = std::max(
-              deepest, deepest_penetration(at[i], surfaces_[j].triangles, at[j]).depth);
+          deepest =
+              std::max(deepest, deepest_penetration(at[i], surfaces_[j].triangles, at[j]).depth);
       for (const CollisionPlane& plane : planes)
-        if (i < bodies_.size()) deepest = std::max(deepest, deepest_penetration(at[i], plane).depth);
+        if (i < bodies_.size())
+          deepest = std::max(deepest, deepest_penetration(at[i], plane).depth);
     }
     return deepest;
   }
