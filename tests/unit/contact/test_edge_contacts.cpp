@@ -1,6 +1,9 @@
 #include "contact/edge_contacts.hpp"
 #include "contact_test.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 using namespace bem;
 using namespace bem::test;
 
@@ -52,6 +55,16 @@ TEST_CASE("a fast ridge does not pass the other one") {
     gap = std::min(gap, c.gap_end);
   }
   CHECK(gap == Approx(-0.2));
+}
+
+TEST_CASE("an edge that comes over another one end first is held") {
+  // Its end vertex starts on the other ridge, and the ridge ends 3 mm deep in it.
+  const Vec3 along(std::cos(1.1), std::sin(1.1), 0);
+  const Vec3 from = along - Vec3(0, 0, 1e-7);
+  double gap = 0;
+  for (const Contact& c : crossed(from, from - 0.02 * along - Vec3(0, 0, 3e-3)))
+    if (c.key.kind == ContactKind::edge_edge) gap = std::min(gap, c.gap_end);
+  CHECK(gap == Approx(-3e-3 - 1e-7));
 }
 
 TEST_CASE("concave and flat edges have no contacts") {
