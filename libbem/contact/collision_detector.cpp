@@ -4,7 +4,9 @@
 #include "base/parallel.hpp"
 #include "contact/bounding_tree.hpp"
 #include "contact/edge_contacts.hpp"
+#include "contact/mirrored_contacts.hpp"
 #include "contact/moving_surface.hpp"
+#include "contact/plane_contacts.hpp"
 #include "contact/surface_topology.hpp"
 #include "contact/vertex_contacts.hpp"
 

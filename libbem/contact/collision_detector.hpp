@@ -48,8 +48,10 @@ class CollisionDetector {
   CollisionDetector(CollisionDetector&&) noexcept;
   CollisionDetector& operator=(CollisionDetector&&) noexcept;
 
-  /// One motion per surface. Call again with corrected ends for what was missed: a pair that is
-  /// found again keeps its key. O(n) for the boxes plus O(log n) per close pair.
+  /// One motion per surface. When the forces of these contacts have changed the ends, call again:
+  /// a pair that is found again keeps its key and has its points and normal where they now are, one
+  /// that is not keeps its inequality. The ends are free of penetration when no contact of such a
+  /// call has gap_end < 0. O(n) for the boxes plus O(log n) per close pair.
   std::vector<Contact> detect(const std::vector<SurfaceMotion>& motions);
 
  private:

@@ -33,7 +33,7 @@ struct Crossings {
 };
 
 /// Sign changes in [0, 1], to the last bits of t: between the extrema a sign change is bracketed
-/// and found by Newton's method with bisection. A touch without a change of sign is none.
+/// and found by Newton's method with bisection. Zero counts as negative.
 Crossings sign_changes(const Cubic& f);
 
 }  // namespace bem

@@ -15,6 +15,7 @@ namespace {
 constexpr double kParallel = 1e-3;  ///< sine of the angle between edges that count as parallel
 constexpr double kFlat = 1e-4;      ///< [rad]
 constexpr double kRim = 0.1;        ///< of the margin: length of an edge that is beside its end
+constexpr double kDeepest = 4;      ///< of the recovery depth
 constexpr double kSameSide = 0.5;   ///< cosine above which two normals hold on one side
 
 /// Both edges at one time, where they can touch.
@@ -41,7 +42,7 @@ class EdgePair {
       return contact(*start);
     if (const auto hit = first_hit()) return contact(*hit);
     const std::optional<Approach> end = approach(1);
-    if (end && end->gap >= -limits_.tolerance && end->gap < limits_.margin) return contact(*end);
+    if (end && end->gap < limits_.margin && is_recent(*end)) return contact(*end);
     return std::nullopt;
   }
 
@@ -74,6 +75,19 @@ class EdgePair {
     return s > end && s < 1 - end;
   }
 
+  /// Edges that end in each other without a hit of their own, since they came together over a
+  /// vertex or while they touched: is it not deep, or has it come to that in this step?
+  bool is_recent(const Approach& end) const {
+    if (end.gap >= -limits_.recovery_depth) return true;
+    const double before =
+        end.normal.dot(point(a_, ends_a_, end.s, 0) - point(b_, ends_b_, end.u, 0));
+    return before >= -limits_.recovery_depth && end.gap >= -kDeepest * limits_.recovery_depth;
+  }
+
+  static Vec3 point(const MovingSurface& x, const std::array<int, 2>& ends, double s, double t) {
+    return (1 - s) * x.vertex(ends[0], t) + s * x.vertex(ends[1], t);
+  }
+
   std::optional<Approach> first_hit() const {
     const auto vector = [](const MovingSurface& x, int i, const MovingSurface& y, int j) {
       return LinearVector{x.vertex(i, 0) - y.vertex(j, 0), x.change(i) - y.change(j)};
@@ -88,8 +102,9 @@ class EdgePair {
     return std::nullopt;
   }
 
-  /// Right beside a vertex of one edge, is that vertex less deep below a face at the other edge
-  /// than the edges are in each other? Then it is pushed out there: see vertex_contacts.cpp.
+  /// Right beside a vertex of one edge, does that vertex lie over a face at the other edge, less
+  /// deep below it than the edges are in each other? Then it is pushed out there, as in
+  /// vertex_contacts.cpp.
   bool is_held_beside(const Approach& x, double gap_end) const {
     return is_held_beside(a_, ends_a_, x.s, b_, edge_b_, x.normal, x.time, gap_end) ||
            is_held_beside(b_, ends_b_, x.u, a_, edge_a_, -x.normal, x.time, gap_end);
@@ -104,9 +119,10 @@ class EdgePair {
     const SurfaceTopology::Edge& e = y.topology->edges[edge_y];
     for (int triangle : e.triangles) {
       if (triangle < 0) continue;
-      const Vec3 n = triangle_normal(y, triangle, t);
-      if (n.dot(normal) < kSameSide && faces(x, v, t, n) &&
-          n.dot(x.vertex(v, 1) - y.vertex(e.vertices[0], 1)) >
+      const TrianglePlace place = place_at_triangle(x.vertex(v, t), y, triangle, t);
+      if (place.normal.dot(normal) < kSameSide && place.overhang <= 3 * limits_.tolerance &&
+          is_tip(x, v, t, place.normal) &&
+          place.normal.dot(x.vertex(v, 1) - y.vertex(e.vertices[0], 1)) >
               std::min(gap_end, -kRim * limits_.margin))
         return true;
     }
@@ -114,15 +130,18 @@ class EdgePair {
   }
 
   std::optional<Contact> contact(const Approach& approach) const {
-    const auto end_of = [](const MovingSurface& x, const std::array<int, 2>& ends) {
-      return std::array<Vec3, 2>{x.vertex(ends[0], 1), x.vertex(ends[1], 1)};
+    // The points that are closest at the end; if the edges have slid off each other, those or the
+    // ones that met, whichever are deeper.
+    const LinePair lines = closest_on_lines(a_.vertex(ends_a_[0], 1), a_.vertex(ends_a_[1], 1),
+                                            b_.vertex(ends_b_[0], 1), b_.vertex(ends_b_[1], 1));
+    const double last_s = std::clamp(lines.s, 0.0, 1.0), last_u = std::clamp(lines.u, 0.0, 1.0);
+    const auto gap = [&](double s, double u) {
+      return approach.normal.dot(point(a_, ends_a_, s, 1) - point(b_, ends_b_, u, 1));
     };
-    const auto [p, q] = end_of(a_, ends_a_);
-    const auto [r, v] = end_of(b_, ends_b_);
-    const LinePair lines = closest_on_lines(p, q, r, v);
-    const bool parallel = lines.sine < kParallel;
-    const double s = std::clamp(parallel ? approach.s : lines.s, 0.0, 1.0);
-    const double u = std::clamp(parallel ? approach.u : lines.u, 0.0, 1.0);
+    const bool last =
+        lines.sine >= kParallel && ((last_s == lines.s && last_u == lines.u) ||
+                                    gap(last_s, last_u) < gap(approach.s, approach.u));
+    const double s = last ? last_s : approach.s, u = last ? last_u : approach.u;
     Contact c;
     c.a = {a_.index, 2, {ends_a_[0], ends_a_[1], -1}, {1 - s, s, 0}};
     c.b = {b_.index, 2, {ends_b_[0], ends_b_[1], -1}, {1 - u, u, 0}};

@@ -65,10 +65,19 @@ NormalArc normal_arc(const MovingSurface& surface, int edge, double t) {
   return arc;
 }
 
-bool faces(const MovingSurface& surface, int vertex, double t, const Vec3& n) {
-  const double along = n.dot(vertex_normal(surface, vertex, t));
-  if (along < -kFacing) return true;
-  if (along >= 0) return false;
+TrianglePlace place_at_triangle(const Vec3& point, const MovingSurface& surface, int triangle,
+                                double t) {
+  const auto [p, q, r] = surface.triangle(triangle, t);
+  TrianglePlace place;
+  place.closest = closest_on_triangle(point, p, q, r);
+  place.normal = unit((q - p).cross(r - p));
+  const Vec3 between = point - place.closest.point;
+  place.height = place.normal.dot(between);
+  place.overhang = (between - place.height * place.normal).norm();
+  return place;
+}
+
+bool is_tip(const MovingSurface& surface, int vertex, double t, const Vec3& n) {
   const SurfaceTopology& topology = *surface.topology;
   const Vec3 at = surface.vertex(vertex, t);
   for (int i = topology.fan_begin[vertex]; i < topology.fan_begin[vertex + 1]; ++i) {
@@ -77,7 +86,11 @@ bool faces(const MovingSurface& surface, int vertex, double t, const Vec3& n) {
       if (n.dot(d) < -kTipSlack * d.norm()) return false;
     }
   }
-  return true;
+  return n.dot(vertex_normal(surface, vertex, t)) < 0;
+}
+
+bool faces(const MovingSurface& surface, int vertex, double t, const Vec3& n) {
+  return n.dot(vertex_normal(surface, vertex, t)) < -kFacing || is_tip(surface, vertex, t, n);
 }
 
 }  // namespace bem

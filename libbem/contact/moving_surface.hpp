@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/closest_points.hpp"
 #include "contact/surface_topology.hpp"
 
 #include <array>
@@ -50,8 +51,22 @@ struct NormalArc {
 
 NormalArc normal_arc(const MovingSurface& surface, int edge, double t);
 
-/// May a vertex be pushed along unit vector n: does its surface face the other way, or is it a tip
-/// whose neighbours all lie further along n?
+/// A point and a triangle at one time.
+struct TrianglePlace {
+  NearestPoint closest;  ///< of the triangle
+  Vec3 normal;            ///< of the triangle
+  double height = 0;      ///< of the point above the triangle's plane [m]
+  double overhang = 0;    ///< how far its foot on the plane lies outside the triangle [m]
+};
+
+TrianglePlace place_at_triangle(const Vec3& point, const MovingSurface& surface, int triangle,
+                                double t);
+
+/// Is the vertex a tip against unit vector n: no neighbour lies deeper along -n by more than an
+/// angle of 0.05 rad, and its normal points that way?
+bool is_tip(const MovingSurface& surface, int vertex, double t, const Vec3& n);
+
+/// May the vertex be pushed along n: does its surface face the other way, or is it a tip?
 bool faces(const MovingSurface& surface, int vertex, double t, const Vec3& n);
 
 }  // namespace bem

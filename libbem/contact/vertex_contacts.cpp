@@ -19,6 +19,7 @@ constexpr double kSameDirection = 0.9998;  ///< cosine above which two normals a
 
 constexpr double kRim = 0.1;  ///< of the margin
 
+<<<<<<< HEAD
 /// The vertex and one triangle at one time.
 struct Place {
   NearestPoint closest;
@@ -27,17 +28,21 @@ struct Place {
   double overhang = 0;  ///< how far its foot on the plane lies outside the triangle [m]
 };
 
+=======
+>>>>>>> collision
 struct Candidate {
   int triangle;
-  Place start, end;
+  TrianglePlace start, end;
 };
 
 /// A triangle that may hold the vertex.
 struct Proposal {
   double time;  ///< of the impact; 1 if it only ends near
   Vec3 normal;  ///< of the triangle at that time
+  int triangle;
+  std::array<double, 3> weights;  ///< of the point in it
+  Vec3 point;                     ///< that point at the end
   double gap_end;
-  const Candidate* candidate;
 };
 
 class VertexContacts {
@@ -56,7 +61,8 @@ class VertexContacts {
   void add(const int* first, const int* last, std::vector<Contact>& contacts) {
     candidates_.reserve(last - first);
     for (; first != last; ++first)
-      candidates_.push_back({*first, place(*first, 0, start_), place(*first, 1, end_)});
+      candidates_.push_back({*first, place_at_triangle(start_, b_, *first, 0),
+                             place_at_triangle(end_, b_, *first, 1)});
     propose_entered();
     propose_near();
     for (const Proposal& p : proposals_)
@@ -65,17 +71,6 @@ class VertexContacts {
   }
 
  private:
-  Place place(int triangle, double t, const Vec3& at) const {
-    const auto [p, q, r] = b_.triangle(triangle, t);
-    Place result;
-    result.closest = closest_on_triangle(at, p, q, r);
-    result.normal = triangle_normal(b_, triangle, t);
-    const Vec3 between = at - result.closest.point;
-    result.height = result.normal.dot(between);
-    result.overhang = (between - result.height * result.normal).norm();
-    return result;
-  }
-
   /// Triangles the vertex touches at the start or goes through later, the earliest first.
   void propose_entered() {
     double nearest = 0;
@@ -88,8 +83,8 @@ class VertexContacts {
       }
     }
     std::sort(proposals_.begin(), proposals_.end(), [](const Proposal& x, const Proposal& y) {
-      return std::make_tuple(x.time, -x.gap_end, x.candidate->triangle) <
-             std::make_tuple(y.time, -y.gap_end, y.candidate->triangle);
+      return std::make_tuple(x.time, -x.gap_end, x.triangle) <
+             std::make_tuple(y.time, -y.gap_end, y.triangle);
     });
   }
 
@@ -114,7 +109,7 @@ class VertexContacts {
     return normal.dot(start_ - closest.point) < 0;
   }
 
-  bool touches_at_start(const Place& start, bool inside, double nearest) const {
+  bool touches_at_start(const TrianglePlace& start, bool inside, double nearest) const {
     if (start.height > limits_.tolerance || start.height < -limits_.recovery_depth) return false;
     if (start.height >= -limits_.tolerance && start.overhang <= inclusive_) return true;
     return inside && (start_ - start.closest.point).norm() <=
@@ -131,7 +126,7 @@ class VertexContacts {
     for (int i = 0; i < crossings.count; ++i) {
       const double time = crossings.at[i].time;
       if (!crossings.at[i].falling) continue;
-      const Place hit = place(c.triangle, time, a_.vertex(vertex_, time));
+      const TrianglePlace hit = place_at_triangle(a_.vertex(vertex_, time), b_, c.triangle, time);
       if (hit.overhang > inclusive_) continue;
       propose_hit(c, time, hit);
       return;
@@ -140,7 +135,7 @@ class VertexContacts {
 
   /// The triangle beyond a sharp convex edge of `triangle` that the place is right beside, if the
   /// vertex can as well be pushed out on that side; null without one.
-  const Candidate* beyond_edge(int triangle, const Place& place, double t) const {
+  const Candidate* beyond_edge(int triangle, const TrianglePlace& place, double t) const {
     const Triangle& corners = b_.topology->triangles[triangle];
     for (int k = 0; k < 3; ++k) {
       const auto& sides = b_.topology->edges[b_.topology->triangle_edges[triangle][k]].triangles;
@@ -151,7 +146,7 @@ class VertexContacts {
       const double altitude = (q - p).cross(r - p).norm() / (q - p).norm();
       if (place.closest.weights[(k + 2) % 3] * altitude > rim_) continue;
       const Vec3 n = triangle_normal(b_, other, t);
-      if (n.dot(r - p) >= 0 || n.dot(place.normal) > kSameSide || !faces(a_, vertex_, t, n))
+      if (n.dot(r - p) >= 0 || n.dot(place.normal) > kSameSide || !is_tip(a_, vertex_, t, n))
         continue;
       const auto found = std::find_if(candidates_.begin(), candidates_.end(),
                                       [&](const Candidate& c) { return c.triangle == other; });
@@ -162,7 +157,7 @@ class VertexContacts {
 
   /// The vertex enters the surface at `hit`. Right beside a sharp edge it is pushed out on the
   /// side where it ends less deep, so that bodies set flush do not catch on each other.
-  void propose_hit(const Candidate& c, double time, const Place& hit) {
+  void propose_hit(const Candidate& c, double time, const TrianglePlace& hit) {
     const Candidate* beyond = beyond_edge(c.triangle, hit, time);
     const bool shorter = beyond && beyond->end.normal.dot(end_ - beyond->end.closest.point) >
                                        c.end.normal.dot(end_ - c.end.closest.point);
@@ -173,26 +168,39 @@ class VertexContacts {
   }
 
   /// The vertex has entered the surface through triangle c at `time`, at its point `weights`; it is
-  /// held by the triangle under its end that can be reached from there without a steep way, or else
-  /// by c.
+  /// held by the nearest triangle under its end that is reached from there without a steep way, or
+  /// else where it entered.
   void propose_at_end(const Candidate& c, double time, const std::array<double, 3>& weights) {
     const Vec3 entered = triangle_normal(b_, c.triangle, time);
     const auto [p, q, r] = b_.triangle(c.triangle, 1);
     const Vec3 entry = weights[0] * p + weights[1] * q + weights[2] * r;
-    Proposal best{time, entered, entered.dot(end_ - c.end.closest.point), &c};
-    double nearest = c.end.overhang <= inclusive_ ? std::abs(c.end.height)
-                                                  : std::numeric_limits<double>::infinity();
+    const Candidate* under = nullptr;
+    Vec3 normal = entered;
     for (const Candidate& other : candidates_) {
-      if (other.end.overhang > inclusive_ || !(std::abs(other.end.height) < nearest)) continue;
-      const Vec3 normal = triangle_normal(b_, other.triangle, time);
-      const Vec3 way = other.end.closest.point - entry;
-      if (normal.dot(entered) < kSameSide ||
-          std::abs(entered.dot(way)) > kSteepest * way.norm() + limits_.tolerance)
+      if (other.end.overhang > inclusive_ ||
+          (under && std::abs(other.end.height) >= std::abs(under->end.height)))
         continue;
-      nearest = std::abs(other.end.height);
-      best = {time, normal, normal.dot(end_ - other.end.closest.point), &other};
+      const Vec3 n = triangle_normal(b_, other.triangle, time);
+      const Vec3 way = other.end.closest.point - entry;
+      if (n.dot(entered) < kSameSide ||
+          std::abs(entered.dot(way)) > kSteepest * way.norm() + limits_.tolerance ||
+          !faces(a_, vertex_, time, n))
+        continue;
+      under = &other;
+      normal = n;
     }
-    if (best.gap_end < limits_.margin) proposals_.push_back(best);
+    if (under)
+      propose(time, normal, under->triangle, under->end.closest.weights);
+    else
+      propose(time, entered, c.triangle, weights);
+  }
+
+  void propose(double time, const Vec3& normal, int triangle,
+               const std::array<double, 3>& weights) {
+    const auto [p, q, r] = b_.triangle(triangle, 1);
+    const Vec3 point = weights[0] * p + weights[1] * q + weights[2] * r;
+    const double gap = normal.dot(end_ - point);
+    if (gap < limits_.margin) proposals_.push_back({time, normal, triangle, weights, point, gap});
   }
 
   /// Triangles the vertex ends above, the nearest first.
@@ -204,12 +212,11 @@ class VertexContacts {
         continue;
       const Candidate* beyond = beyond_edge(c.triangle, c.end, 1);
       if (!beyond || beyond->end.normal.dot(end_ - beyond->end.closest.point) < -rim_)
-        proposals_.push_back({1, c.end.normal, c.end.height, &c});
+        propose(1, c.end.normal, c.triangle, c.end.closest.weights);
     }
     std::sort(proposals_.begin() + entered, proposals_.end(),
               [](const Proposal& x, const Proposal& y) {
-                return std::tie(x.gap_end, x.candidate->triangle) <
-                       std::tie(y.gap_end, y.candidate->triangle);
+                return std::tie(x.gap_end, x.triangle) < std::tie(y.gap_end, y.triangle);
               });
   }
 
@@ -217,7 +224,7 @@ class VertexContacts {
   /// in front of the others and they in front of it?
   bool is_needed(const Proposal& p) const {
     for (const Proposal& q : accepted_)
-      if (q.candidate == p.candidate || p.normal.dot(q.normal) > kSameDirection ||
+      if (q.triangle == p.triangle || p.normal.dot(q.normal) > kSameDirection ||
           !is_in_front(p, q) || !is_in_front(q, p))
         return false;
     return true;
@@ -226,24 +233,23 @@ class VertexContacts {
   /// Is what x holds the vertex above in front of y? Where both are at one place, the whole
   /// triangles tell.
   bool is_in_front(const Proposal& x, const Proposal& y) const {
-    const Vec3& at = y.candidate->end.closest.point;
-    const Vec3 way = x.candidate->end.closest.point - at;
+    const Vec3 way = x.point - y.point;
     if (way.norm() > 10 * inclusive_) return y.normal.dot(way) >= -limits_.tolerance;
-    const auto [p, q, r] = b_.triangle(x.candidate->triangle, 1);
-    return y.normal.dot((p + q + r) / 3 - at) > 0;
+    const auto [p, q, r] = b_.triangle(x.triangle, 1);
+    return y.normal.dot((p + q + r) / 3 - y.point) > 0;
   }
 
   Contact contact(const Proposal& p) const {
-    const Triangle& t = b_.topology->triangles[p.candidate->triangle];
+    const Triangle& t = b_.topology->triangles[p.triangle];
     Contact c;
     c.a = {a_.index, 1, {vertex_, -1, -1}, {1, 0, 0}};
-    c.b = {b_.index, 3, t, p.candidate->end.closest.weights};
+    c.b = {b_.index, 3, t, p.weights};
     c.normal = p.normal;
-    c.point = p.candidate->end.closest.point;
+    c.point = p.point;
     c.offset_start = start_ - c.b.place(*b_.start);
     c.gap_start = c.normal.dot(c.offset_start);
     c.gap_end = p.gap_end;
-    c.key = {a_.index, b_.index, ContactKind::vertex_triangle, vertex_, p.candidate->triangle};
+    c.key = {a_.index, b_.index, ContactKind::vertex_triangle, vertex_, p.triangle};
     return c;
   }
 
@@ -258,71 +264,12 @@ class VertexContacts {
   std::vector<Proposal> proposals_, accepted_;
 };
 
-/// The vertex that side b of the contact is at, -1 if it is not at any.
-int vertex_of_b(const Contact& c, const MovingSurface& b, double tolerance) {
-  if (c.key.kind != ContactKind::vertex_triangle) return -1;
-  for (int v : c.b.vertices)
-    if ((b.vertex(v, 1) - c.point).norm() <= tolerance) return v;
-  return -1;
-}
-
 }  // namespace
-
-void remove_mirrored(const ContactLimits& limits, const MovingSurface& a, const MovingSurface& b,
-                     std::vector<Contact>& contacts) {
-  // (vertex of the first surface, vertex of the second, which of them is side a, contact)
-  std::vector<std::tuple<int, int, bool, std::size_t>> meetings;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Contact& c = contacts[i];
-    const bool swapped = c.key.surface_a != a.index;
-    const int v = c.key.feature_a;
-    const int w = vertex_of_b(c, swapped ? a : b, 3 * limits.tolerance);
-    if (w >= 0) meetings.emplace_back(swapped ? w : v, swapped ? v : w, swapped, i);
-  }
-  std::sort(meetings.begin(), meetings.end());
-  std::vector<char> removed(contacts.size(), 0);
-  const auto same_meeting = [](const auto& x, const auto& y) {
-    return std::get<0>(x) == std::get<0>(y) && std::get<1>(x) == std::get<1>(y);
-  };
-  for (std::size_t i = 0; i < meetings.size(); ++i) {
-    for (std::size_t j = i + 1; j < meetings.size() && same_meeting(meetings[i], meetings[j]);
-         ++j) {
-      const std::size_t first = std::get<3>(meetings[i]), second = std::get<3>(meetings[j]);
-      if (std::get<2>(meetings[i]) != std::get<2>(meetings[j]) &&
-          contacts[first].normal.dot(contacts[second].normal) < -kSameDirection)
-        removed[contacts[first].key < contacts[second].key ? second : first] = 1;
-    }
-  }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (!removed[i]) contacts[kept++] = contacts[i];
-  contacts.resize(kept);
-}
 
 void add_vertex_contacts(const MovingSurface& a, int vertex, const MovingSurface& b,
                          const int* first, const int* last, const ContactLimits& limits,
                          std::vector<Contact>& contacts) {
   VertexContacts(a, vertex, b, limits).add(first, last, contacts);
-}
-
-void add_plane_contacts(const MovingSurface& a, int plane_index, const Vec3& point,
-                        const Vec3& normal, const ContactLimits& limits,
-                        std::vector<Contact>& contacts) {
-  for (int v = 0; v < a.topology->vertex_count(); ++v) {
-    const Vec3 end = a.vertex(v, 1);
-    const double gap = normal.dot(end - point);
-    if (gap >= limits.margin) continue;
-    Contact c;
-    c.a = {a.index, 1, {v, -1, -1}, {1, 0, 0}};
-    c.b.surface = plane_index;
-    c.normal = normal;
-    c.point = end - gap * normal;
-    c.offset_start = a.vertex(v, 0) - c.point;
-    c.gap_start = normal.dot(c.offset_start);
-    c.gap_end = gap;
-    c.key = {a.index, plane_index, ContactKind::vertex_plane, v, 0};
-    contacts.push_back(c);
-  }
 }
 
 }  // namespace bem

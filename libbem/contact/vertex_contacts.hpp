@@ -16,16 +16,4 @@ void add_vertex_contacts(const MovingSurface& a, int vertex, const MovingSurface
                          const int* first, const int* last, const ContactLimits& limits,
                          std::vector<Contact>& contacts);
 
-/// Where two vertices meet, either is in contact with a triangle at the other; both say the same
-/// if their normals are opposite. Removes the one with the larger key from the contacts of two
-/// surfaces. O(n log n).
-void remove_mirrored(const ContactLimits& limits, const MovingSurface& a, const MovingSurface& b,
-                     std::vector<Contact>& contacts);
-
-/// Appends the contacts of all vertices of a surface that end the step nearer to the half space
-/// below a plane than the margin. O(n).
-void add_plane_contacts(const MovingSurface& a, int plane_index, const Vec3& point,
-                        const Vec3& normal, const ContactLimits& limits,
-                        std::vector<Contact>& contacts);
-
 }  // namespace bem
