@@ -19,17 +19,6 @@ constexpr double kSameDirection = 0.9998;  ///< cosine above which two normals a
 
 constexpr double kRim = 0.1;  ///< of the margin
 
-<<<<<<< HEAD
-/// The vertex and one triangle at one time.
-struct Place {
-  NearestPoint closest;
-  Vec3 normal;
-  double height = 0;    ///< above the triangle's plane [m]
-  double overhang = 0;  ///< how far its foot on the plane lies outside the triangle [m]
-};
-
-=======
->>>>>>> collision
 struct Candidate {
   int triangle;
   TrianglePlace start, end;
