@@ -1,6 +1,6 @@
 #include "base/parallel.hpp"
-#include "dynamics/simulation.hpp"
 #include "model/growth.hpp"
+#include "simulation/simulation.hpp"
 #include "support.hpp"
 
 #include <chrono>
@@ -81,9 +81,10 @@ class SphereSource : public bem::ModelSource {
     model_ = model;
   }
   std::shared_ptr<const bem::BodyModel> model(const bem::FilePath&) override { return model_; }
-  bem::TractionData tractions(const bem::FilePath&, const std::vector<int>& unknowns) override {
-    return bem::extract_tractions(*model_, unknowns);
+  bem::TractionData tractions(const bem::FilePath&, const std::vector<int>& nodes) override {
+    return bem::extract_tractions(*model_, nodes);
   }
+  bem::TriangleMesh obstacle(const bem::FilePath&) override { return {}; }
   const bem::BodyModel& model() const { return *model_; }
 
  private:

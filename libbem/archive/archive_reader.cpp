@@ -20,15 +20,11 @@ Archive::Archive(const std::string& path)
   if (file_.int_attribute("/", "format_version") != user_block_.version)
     refuse("its format version is not that of its header");
   read_kind();
+  if (kind_ == ModelKind::dynamic) read_storage();
   read_geometry();
   read_material();
   read_provenance();
   if (kind_ == ModelKind::rigid) return;
-  require_text("codec", kArchiveCodec);
-  const std::string precision = file_.string_attribute("/", "precision");
-  if (precision != "float32" && precision != "float64")
-    refuse("has the unknown precision \"" + precision + "\"");
-  precision_ = precision == "float32" ? Precision::float32 : Precision::float64;
   read_discretisation();
   read_report();
 }
@@ -42,6 +38,14 @@ void Archive::read_kind() {
     }
   refuse("has the model \"" + name +
          "\", but this version of the program understands \"dynamic\" and \"rigid\" only");
+}
+
+void Archive::read_storage() {
+  require_text("codec", kArchiveCodec);
+  const std::string precision = file_.string_attribute("/", "precision");
+  if (precision != "float32" && precision != "float64")
+    refuse("has the unknown precision \"" + precision + "\"");
+  precision_ = precision == "float32" ? Precision::float32 : Precision::float64;
 }
 
 void Archive::refuse(const std::string& what) const {

@@ -69,6 +69,7 @@ class Archive {
 
   [[noreturn]] void refuse(const std::string& what) const;
   void read_kind();
+  void read_storage();
   void require_text(const std::string& name, const std::string& expected) const;
   std::vector<Vec3> read_points(const std::string& path) const;
   std::vector<Triangle> read_triangles(const std::string& path, std::size_t vertices) const;

@@ -99,7 +99,7 @@ class Usage(CliCase):
             (["--scheme", "rk4"], "radau2"), (["--scheme", "theta:2"], "theta"),
             (["--window", "0"], "--window"), (["--window", "1.5"], "--window"),
             (["--window", "off"], "--window"),
-            (["--model", "static"], "not supported yet"), (["--model", "rigid"], "not supported"),
+            (["--model", "static"], "not supported yet"), (["--model", "soft"], "does not know"),
             (["--model", "x"], "--model"),
             (["--codec", "haar"], "not supported yet"), (["--codec", "lowrank"], "not supported"),
             (["--codec", "zip"], "--codec"), (["--codec-tol", "1e-3"], "--codec"),

@@ -75,10 +75,12 @@ TumblingErrors tumble(const char* scheme, double time, int steps, const Mat3& re
     return 0.5 * l.dot(mass.inertia.inverse() * l);
   };
   const double start = energy();
-  const std::vector<Vec3> none(Scheme::parse(scheme).stages(), Vec3::Zero());
+  FrameLoads none;
+  none.forces = none.torques =
+      std::vector<Vec3>(Scheme::parse(scheme).stages(), Vec3::Zero());
   TumblingErrors e{0, 0, 0};
   for (int n = 0; n < steps; ++n) {
-    frame.advance(frame.stages(none, none));
+    frame.advance(frame.stages(none));
     e.momentum =
         std::max(e.momentum, (frame.angular_momentum() - momentum).norm() / momentum.norm());
     e.energy = std::max(e.energy, std::abs(energy() / start - 1));

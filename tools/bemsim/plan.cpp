@@ -81,6 +81,11 @@ double memory_of(const std::vector<PlannedBody>& bodies, bool contact) {
 }
 
 void add_warnings(Plan& plan) {
+  if (!plan.scene.obstacles.empty() && !plan.scene.contact.enabled)
+    plan.warnings.push_back(
+        where(plan.scene.obstacles[0].location) +
+        ": obstacles touch nothing in a scene without contact; add \"contact\": "
+        "{} to it");
   std::set<const Archive*> seen;
   for (const PlannedBody& body : plan.bodies) {
     const double growth = body.archive->report().growth * body.archive->window();
@@ -176,6 +181,10 @@ void print_plan(std::ostream& out, const Plan& plan) {
   if (std::count(fields.begin(), fields.end(), OutputField::tractions) > 0)
     out << ", with tractions";
   out << "\n";
+  if (scene.contact.enabled)
+    out << "contact: " << count_text(scene.obstacles.size(), "obstacle")
+        << (scene.contact.self ? ", and of bodies with themselves" : "") << "\n";
+  if (!scene.joints.empty()) out << "joints:  " << scene.joints.size() << "\n";
   for (const PlannedBody& body : plan.bodies) print_body(out, body, scene.gravity);
 }
 

@@ -3,7 +3,7 @@
 
 #include <archive/archive_reader.hpp>
 #include <archive/archive_writer.hpp>
-#include <dynamics/simulation.hpp>
+#include <simulation/simulation.hpp>
 #include <mesh/shapes.hpp>
 #include <model/precompute.hpp>
 
