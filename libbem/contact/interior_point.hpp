@@ -7,7 +7,8 @@
 namespace bem {
 
 /// Primal-dual interior point method for frictional contact [Acary, Armand, Nguyen and
-/// Shpakovych]: in the variables z = (mu r_n, r_t) and y = (u_n / mu + |u_t|, u_t) the contact law is
+/// Shpakovych]: in the variables z = (mu r_n, r_t) and y = (u_n / mu + |u_t|, u_t) the contact law
+/// is
 ///
 ///     y in L, z in L, y . z = 0,        L the second-order cone,
 ///
