@@ -35,7 +35,10 @@ void make_dimensionless(ContactSet& set) {
   for (int i = 0; i < n; ++i)
     for (int k = p.row_start[i]; k < p.row_start[i + 1]; ++k) {
       set.finite = set.finite && p.blocks[k].allFinite();
-      if (p.columns[k] == i) set.scale[i] = p.blocks[k].stableNorm() / std::sqrt(3.0);
+      if (p.columns[k] == i)
+        set.scale[i] =
+            Eigen::Map<const Eigen::Matrix<double, 9, 1>>(p.blocks[k].data()).stableNorm() /
+            std::sqrt(3.0);
     }
   const int regular = static_cast<int>((set.scale.array() > 0).count());
   const double mean = regular > 0 ? set.scale.sum() / regular : 1;

@@ -6,14 +6,14 @@
 
 namespace bem {
 
-/// Primal-dual interior point method for frictional contact [Acary, Armand, Nguyen, Shpakovych
-/// 2023]: in the variables z = (mu r_n, r_t) and y = (u_n / mu + |u_t|, u_t) the contact law is
+/// Primal-dual interior point method for frictional contact [Acary, Armand, Nguyen and
+/// Shpakovych]: in the variables z = (mu r_n, r_t) and y = (u_n / mu + |u_t|, u_t) the contact law
+/// is
 ///
 ///     y in L, z in L, y . z = 0,        L the second-order cone,
 ///
 /// of which the central path (y o z = target e) is followed by Newton's method with the scaling of
-/// Nesterov and Todd and Mehrotra's corrections. Needs no regularity of W: hyperstatic problems
-/// take as many steps as others.
+/// Nesterov and Todd and Mehrotra's corrections. W may be singular (hyperstatic problems).
 class InteriorPoint {
  public:
   /// Starts near the forces `start`, moved inside the cones.

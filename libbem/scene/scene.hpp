@@ -45,7 +45,7 @@ struct JointSpec {
   JointType type = JointType::point;
   JointEnd a;
   std::optional<JointEnd> b;  ///< none: a point joint to the world, where its point is at the start
-  double tolerance = 1e-6;  ///< > 0 [m]
+  double tolerance = 1e-6;    ///< > 0 [m]
   Location location;
 };
 

@@ -94,4 +94,51 @@ inline FrictionProblem random_problem(int n, int columns, double mu_low, double 
   return friction_problem(a * a.transpose() / columns, a * force, mu);
 }
 
+/// Boxes on each other with k x k contacts per face, pushed sideways by `push` times their weight
+/// and rocked at random: hyperstatic, W has the rank 6 times the number of boxes at most.
+inline FrictionProblem stack_problem(int boxes, int k, double mu, double push, unsigned seed = 1) {
+  RigidScene scene;
+  Uniform uniform(seed);
+  const double gravity = 9.81e-4;  // times dt^2
+  for (int b = 0; b < boxes; ++b) {
+    Eigen::Matrix<double, 6, 1> free;
+    free << push * gravity, 0.3 * push * gravity * uniform(), -gravity,
+        0.2 * push * gravity * uniform(), 0.2 * push * gravity * uniform(),
+        0.2 * push * gravity * uniform();
+    scene.add_box({0, 0, 0.1 + 0.2 * b}, {0.4, 0.4, 0.2}, uniform.between(1, 3), free);
+    scene.add_face(b, b - 1, {0, 0, 0.2 * b}, 0.4, 0.4, k, mu);
+  }
+  return scene.problem();
+}
+
+/// A wall of bricks, each on two of the course below (the lowest on the ground).
+inline FrictionProblem wall_problem(int courses, int length, double mu, double push,
+                                    unsigned seed = 1) {
+  RigidScene scene;
+  Uniform uniform(seed);
+  const double gravity = 9.81e-4;
+  std::vector<int> below;
+  for (int c = 0; c < courses; ++c) {
+    std::vector<int> course;
+    const int count = length - c % 2;
+    const double start = c % 2 == 0 ? 0 : 0.1;
+    for (int b = 0; b < count; ++b) {
+      Eigen::Matrix<double, 6, 1> free;
+      free << push * gravity * uniform(), push * gravity * uniform(), -gravity,
+          push * gravity * uniform(), push * gravity * uniform(), push * gravity * uniform();
+      const Vec3 centre(start + 0.2 * b, 0, 0.05 + 0.1 * c);
+      course.push_back(scene.add_box(centre, {0.2, 0.1, 0.1}, 2, free));
+      for (int half = 0; half < 2; ++half) {
+        const int under = b + half - (c % 2 == 0 ? 1 : 0);
+        const int other = c == 0 ? RigidScene::kGround : under;
+        if (c > 0 && (under < 0 || under >= static_cast<int>(below.size()))) continue;
+        scene.add_face(course.back(), c == 0 ? other : below[under],
+                       centre + Vec3(half == 0 ? -0.05 : 0.05, 0, -0.05), 0.1, 0.1, 2, mu);
+      }
+    }
+    below = course;
+  }
+  return scene.problem();
+}
+
 }  // namespace bem::test

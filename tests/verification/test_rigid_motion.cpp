@@ -76,8 +76,7 @@ TumblingErrors tumble(const char* scheme, double time, int steps, const Mat3& re
   };
   const double start = energy();
   FrameLoads none;
-  none.forces = none.torques =
-      std::vector<Vec3>(Scheme::parse(scheme).stages(), Vec3::Zero());
+  none.forces = none.torques = std::vector<Vec3>(Scheme::parse(scheme).stages(), Vec3::Zero());
   TumblingErrors e{0, 0, 0};
   for (int n = 0; n < steps; ++n) {
     frame.advance(frame.stages(none));

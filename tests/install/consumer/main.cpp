@@ -3,9 +3,9 @@
 
 #include <archive/archive_reader.hpp>
 #include <archive/archive_writer.hpp>
-#include <simulation/simulation.hpp>
 #include <mesh/shapes.hpp>
 #include <model/precompute.hpp>
+#include <simulation/simulation.hpp>
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
