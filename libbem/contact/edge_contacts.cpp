@@ -96,7 +96,7 @@ class EdgePair {
         vector(a_, ends_a_[0], b_, ends_b_[0]), vector(a_, ends_a_[1], a_, ends_a_[0]),
         vector(b_, ends_b_[1], b_, ends_b_[0])));
     for (int i = 0; i < crossings.count; ++i) {
-      const std::optional<Approach> hit = approach(crossings.at[i].time);
+      std::optional<Approach> hit = approach(crossings.at[i].time);
       if (hit && crossings.at[i].falling == (hit->direction > 0)) return hit;
     }
     return std::nullopt;

@@ -18,10 +18,11 @@ RigidBodies thrown(const std::vector<TriangleMesh>& meshes, double speed, unsign
   std::mt19937_64 generator(seed);
   RigidBodies world;
   for (int i = 0; i < 12; ++i) {
+    const int column = i % 2, row = i / 2 % 2, layer = i / 4;
     const Vec3 velocity = random_vector(generator, speed);
     const Vec3 spin = random_vector(generator, 15 * speed);
-    world.add(meshes[i % meshes.size()], 0.01 / 6,
-              {0.15 * (i % 2), 0.15 * (i / 2 % 2), 0.18 + 0.18 * (i / 4)}, velocity, spin);
+    world.add(meshes[i % meshes.size()], 0.01 / 6, {0.15 * column, 0.15 * row, 0.18 + 0.18 * layer},
+              velocity, spin);
   }
   return world;
 }
