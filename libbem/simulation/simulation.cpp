@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <set>
 
 namespace bem {
 namespace {
@@ -164,22 +163,30 @@ void Simulation::begin_step() {
   }
 }
 
-/// Adds contacts until the motion that they lead to has no others.
+/// Adds contacts until the motion that they lead to breaks no others. A contact that is found again
+/// is taken as it is seen now; one that is not found any more stays.
 void Simulation::collide() {
-  constexpr int kMostPasses = 6;
-  std::set<ContactKey> known;
+  constexpr int kMostPasses = 10;
+  const double tolerance = scene_.contact.tolerance;
+  std::map<ContactKey, ContactPair> known;
   contacts_.clear();
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const double start = now();
-    bool fresh = false;
+    bool broken = false;
     for (ContactPair& pair : collisions_->detect(bodies_)) {
-      if (!known.insert(pair.contact.key).second) continue;
-      contacts_.push_back(std::move(pair));
-      fresh = true;
+      const bool wanted = pair.contact.gap_end < (pass == 0 ? tolerance : -tolerance);
+      broken = broken || wanted;
+      const auto it = known.find(pair.contact.key);
+      if (it != known.end())
+        it->second = std::move(pair);
+      else if (wanted)
+        known.emplace(pair.contact.key, std::move(pair));
     }
     const double solve = now();
     times_.collision += solve - start;
-    if (!fresh) break;
+    if (!broken) break;
+    contacts_.clear();
+    for (const auto& [key, pair] : known) contacts_.push_back(pair);
     const ConstraintStatistics last = statistics_;
     statistics_ = constraints_->solve(contacts_);
     statistics_.iterations += last.iterations;
