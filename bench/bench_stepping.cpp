@@ -66,7 +66,13 @@ void matrix_product(benchmark::State& state) {
   benchmark::DoNotOptimize(y.data());
   set_bytes(state, a.bytes());
 }
-BENCHMARK(matrix_product)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(matrix_product)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(4)
+    ->Arg(24)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 /// A sphere of 642 nodes, computed once for each case.
 class SphereSource : public bem::ModelSource {

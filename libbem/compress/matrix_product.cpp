@@ -26,7 +26,7 @@ HWY_INLINE hn::Vec<Wide> LoadMatrix(Wide d, const float* from) {
 
 /// `rows` rows times `count` right-hand sides, all sums in registers.
 template <int rows, int count, class T>
-HWY_INLINE void MultiplyBlock(const T* HWY_RESTRICT a, std::size_t columns,
+HWY_INLINE void MultiplyBlock(const T* HWY_RESTRICT a, std::size_t columns, std::size_t row_stride,
                               const double* HWY_RESTRICT x, std::size_t x_stride,
                               double* HWY_RESTRICT y, std::size_t y_stride) {
   const Wide d;
@@ -42,7 +42,7 @@ HWY_INLINE void MultiplyBlock(const T* HWY_RESTRICT a, std::size_t columns,
     for (int c = 0; c < count; ++c) value[c] = hn::LoadU(d, x + c * x_stride + j);
 #pragma GCC unroll 4
     for (int r = 0; r < rows; ++r) {
-      const V m = LoadMatrix(d, a + r * columns + j);
+      const V m = LoadMatrix(d, a + r * row_stride + j);
 #pragma GCC unroll 4
       for (int c = 0; c < count; ++c) sum[r][c] = hn::MulAdd(m, value[c], sum[r][c]);
     }
@@ -50,44 +50,48 @@ HWY_INLINE void MultiplyBlock(const T* HWY_RESTRICT a, std::size_t columns,
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < count; ++c) {
       double total = hn::GetLane(hn::SumOfLanes(d, sum[r][c]));
-      for (std::size_t k = j; k < columns; ++k) total += a[r * columns + k] * x[c * x_stride + k];
+      for (std::size_t k = j; k < columns; ++k)
+        total += a[r * row_stride + k] * x[c * x_stride + k];
       y[c * y_stride + r] += total;
     }
 }
 
 template <int count, class T>
-void MultiplyAll(const T* a, std::size_t rows, std::size_t columns, const double* x,
-                 std::size_t x_stride, double* y, std::size_t y_stride) {
+void MultiplyAll(const T* a, std::size_t rows, std::size_t columns, std::size_t row_stride,
+                 const double* x, std::size_t x_stride, double* y, std::size_t y_stride) {
   constexpr int kRows = 4;  // streams of the matrix that are read side by side
   std::size_t i = 0;
   for (; i + kRows <= rows; i += kRows)
-    MultiplyBlock<kRows, count>(a + i * columns, columns, x, x_stride, y + i, y_stride);
+    MultiplyBlock<kRows, count>(a + i * row_stride, columns, row_stride, x, x_stride, y + i,
+                                y_stride);
   for (; i < rows; ++i)
-    MultiplyBlock<1, count>(a + i * columns, columns, x, x_stride, y + i, y_stride);
+    MultiplyBlock<1, count>(a + i * row_stride, columns, row_stride, x, x_stride, y + i, y_stride);
 }
 
 template <class T>
-void Multiply(const T* a, std::size_t rows, std::size_t columns, const double* x,
-              std::size_t x_stride, double* y, std::size_t y_stride, int count) {
+void Multiply(const T* a, std::size_t rows, std::size_t columns, std::size_t row_stride,
+              const double* x, std::size_t x_stride, double* y, std::size_t y_stride, int count) {
   switch (count) {
     case 1:
-      return MultiplyAll<1>(a, rows, columns, x, x_stride, y, y_stride);
+      return MultiplyAll<1>(a, rows, columns, row_stride, x, x_stride, y, y_stride);
     case 2:
-      return MultiplyAll<2>(a, rows, columns, x, x_stride, y, y_stride);
+      return MultiplyAll<2>(a, rows, columns, row_stride, x, x_stride, y, y_stride);
     case 3:
-      return MultiplyAll<3>(a, rows, columns, x, x_stride, y, y_stride);
+      return MultiplyAll<3>(a, rows, columns, row_stride, x, x_stride, y, y_stride);
     default:
-      return MultiplyAll<4>(a, rows, columns, x, x_stride, y, y_stride);
+      return MultiplyAll<4>(a, rows, columns, row_stride, x, x_stride, y, y_stride);
   }
 }
 
-void MultiplyFloat(const float* a, std::size_t rows, std::size_t columns, const double* x,
-                   std::size_t x_stride, double* y, std::size_t y_stride, int count) {
-  Multiply(a, rows, columns, x, x_stride, y, y_stride, count);
+void MultiplyFloat(const float* a, std::size_t rows, std::size_t columns, std::size_t row_stride,
+                   const double* x, std::size_t x_stride, double* y, std::size_t y_stride,
+                   int count) {
+  Multiply(a, rows, columns, row_stride, x, x_stride, y, y_stride, count);
 }
-void MultiplyDouble(const double* a, std::size_t rows, std::size_t columns, const double* x,
-                    std::size_t x_stride, double* y, std::size_t y_stride, int count) {
-  Multiply(a, rows, columns, x, x_stride, y, y_stride, count);
+void MultiplyDouble(const double* a, std::size_t rows, std::size_t columns, std::size_t row_stride,
+                    const double* x, std::size_t x_stride, double* y, std::size_t y_stride,
+                    int count) {
+  Multiply(a, rows, columns, row_stride, x, x_stride, y, y_stride, count);
 }
 
 /// Four columns at a time, so that four streams are read side by side and y is touched less often.
@@ -139,16 +143,20 @@ HWY_EXPORT(MultiplyDouble);
 HWY_EXPORT(AddColumnsFloat);
 HWY_EXPORT(AddColumnsDouble);
 
-void multiply_rows(const float* a, std::size_t rows, std::size_t columns, const double* x,
-                   std::size_t x_stride, double* y, std::size_t y_stride, int count) {
+void multiply_rows(const float* a, std::size_t rows, std::size_t columns, std::size_t row_stride,
+                   const double* x, std::size_t x_stride, double* y, std::size_t y_stride,
+                   int count) {
   require(count >= 1 && count <= kMaxRightHandSides, "1 to 4 right-hand sides");
-  HWY_DYNAMIC_DISPATCH(MultiplyFloat)(a, rows, columns, x, x_stride, y, y_stride, count);
+  HWY_DYNAMIC_DISPATCH(MultiplyFloat)
+  (a, rows, columns, row_stride, x, x_stride, y, y_stride, count);
 }
 
-void multiply_rows(const double* a, std::size_t rows, std::size_t columns, const double* x,
-                   std::size_t x_stride, double* y, std::size_t y_stride, int count) {
+void multiply_rows(const double* a, std::size_t rows, std::size_t columns, std::size_t row_stride,
+                   const double* x, std::size_t x_stride, double* y, std::size_t y_stride,
+                   int count) {
   require(count >= 1 && count <= kMaxRightHandSides, "1 to 4 right-hand sides");
-  HWY_DYNAMIC_DISPATCH(MultiplyDouble)(a, rows, columns, x, x_stride, y, y_stride, count);
+  HWY_DYNAMIC_DISPATCH(MultiplyDouble)
+  (a, rows, columns, row_stride, x, x_stride, y, y_stride, count);
 }
 
 void add_columns(const float* const* columns, std::size_t count, std::size_t first,

@@ -17,16 +17,19 @@ Eigen::MatrixXd zeros(std::size_t rows, std::size_t columns) {
 
 template <class T>
 void DenseStore<T>::multiply_add(const double* x, double* y, int count) const {
-  constexpr std::size_t kTileRows = 96;
+  // a tile stays in the cache while all right-hand sides pass over it
+  constexpr std::size_t kTileRows = 32, kTileColumns = 4096;
   const std::size_t tiles = (rows_ + kTileRows - 1) / kTileRows;
-  for (int first = 0; first < count; first += kMaxRightHandSides) {
-    const int group = std::min(kMaxRightHandSides, count - first);
-    parallel_for(tiles, [&](std::size_t tile) {
-      const std::size_t begin = tile * kTileRows;
-      multiply_rows(row(begin), std::min(kTileRows, rows_ - begin), columns_, x + first * columns_,
-                    columns_, y + first * rows_ + begin, rows_, group);
-    });
-  }
+  parallel_for(tiles, [&](std::size_t tile) {
+    const std::size_t begin = tile * kTileRows, rows = std::min(kTileRows, rows_ - begin);
+    for (std::size_t column = 0; column < columns_; column += kTileColumns) {
+      const std::size_t columns = std::min(kTileColumns, columns_ - column);
+      for (int first = 0; first < count; first += kMaxRightHandSides)
+        multiply_rows(row(begin) + column, rows, columns, columns_, x + first * columns_ + column,
+                      columns_, y + first * rows_ + begin, rows_,
+                      std::min(kMaxRightHandSides, count - first));
+    }
+  });
 }
 
 template <class T>
