@@ -73,7 +73,7 @@ class ConstraintSolver {
   std::vector<Body>* bodies_;
   ConstraintOptions options_;
   std::vector<Mechanism> mechanisms_;
-  std::vector<int> mechanism_of_;   ///< by body
+  std::vector<int> mechanism_of_;    ///< by body
   std::vector<Vec3> start_centres_;  ///< by body: centre of mass at the start of the simulation
   double start_ = 0, dt_ = 0;
 

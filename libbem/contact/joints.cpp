@@ -245,8 +245,7 @@ std::pair<Mat3, Vec3> best_motion(const std::vector<const Joint*>& joints, doubl
     covariance += (targets[i] - to) * (joints[i]->place - from).transpose();
   const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  const Mat3 rotation =
-      svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+  const Mat3 rotation = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
   return {rotation, to - rotation * from};
 }
 

@@ -54,9 +54,9 @@ NormalArc normal_arc(const MovingSurface& surface, int edge, double t);
 /// A point and a triangle at one time.
 struct TrianglePlace {
   NearestPoint closest;  ///< of the triangle
-  Vec3 normal;            ///< of the triangle
-  double height = 0;      ///< of the point above the triangle's plane [m]
-  double overhang = 0;    ///< how far its foot on the plane lies outside the triangle [m]
+  Vec3 normal;           ///< of the triangle
+  double height = 0;     ///< of the point above the triangle's plane [m]
+  double overhang = 0;   ///< how far its foot on the plane lies outside the triangle [m]
 };
 
 TrianglePlace place_at_triangle(const Vec3& point, const MovingSurface& surface, int triangle,
