@@ -46,6 +46,13 @@ void gemm(int m, int n, int k, double alpha, const double* a, int lda, const dou
 }
 
 template <>
+void gemm(int m, int n, int k, float alpha, const float* a, int lda, const float* b, int ldb,
+          float* c, int ldc) {
+  prepare_blas();
+  cblas_sgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, n, k, alpha, a, lda, b, ldb, 1, c, ldc);
+}
+
+template <>
 void gemm(int m, int n, int k, std::complex<double> alpha, const std::complex<double>* a, int lda,
           const std::complex<double>* b, int ldb, std::complex<double>* c, int ldc) {
   prepare_blas();

@@ -1,5 +1,6 @@
 #include "model/geometry.hpp"
 
+#include "mesh/bisection.hpp"
 #include "mesh/extent.hpp"
 #include "mesh/ordering.hpp"
 
@@ -9,7 +10,7 @@ BodyGeometry make_geometry(const Surface& surface, double density) {
   BodyGeometry g;
   g.input = surface.input;
   g.mass = mass_properties(surface.nodes, density);
-  const std::vector<int> order = hilbert_order(surface.nodes.vertices);
+  const std::vector<int> order = bisection_order(surface.nodes.vertices);
   std::vector<int> new_index(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     new_index[order[i]] = static_cast<int>(i);

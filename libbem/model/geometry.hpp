@@ -5,8 +5,8 @@
 
 namespace bem {
 
-/// A body's surface as it is computed with: nodes and triangles along a Hilbert curve, so that
-/// neighbours in space are neighbours in memory, with the origin at the centre of mass.
+/// A body's surface as it is computed with: nodes in the order of recursive bisection, so that
+/// clusters are ranges, triangles along a Hilbert curve, with the origin at the centre of mass.
 struct BodyGeometry {
   TriangleMesh input;               ///< as read: outputs keep its vertices and faces
   std::vector<int> node_of_vertex;  ///< input vertex -> node, -1 if no triangle uses it

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "base/types.hpp"
+
+#include <vector>
+
+namespace bem {
+
+/// A rectangle of a matrix between two clusters of nodes [row_begin, row_end) x [column_begin,
+/// column_end).
+struct NodeBlock {
+  int row_begin = 0, row_end = 0, column_begin = 0, column_end = 0;
+  bool far = false;  ///< the clusters are far apart compared with the smaller one's size
+
+  int rows() const { return row_end - row_begin; }
+  int columns() const { return column_end - column_begin; }
+};
+
+/// What decides on the blocks.
+struct PartitionOptions {
+  int leaf = 16;            ///< clusters of at most so many nodes are not divided
+  int slab = 128;           ///< no block has more rows (nodes)
+  double admissible = 2.0;  ///< far: smaller diameter <= admissible * distance
+};
+
+/// A range of rows that holds whole blocks.
+struct Slab {
+  int row_begin = 0, row_end = 0;  ///< nodes
+  std::vector<NodeBlock> blocks;   ///< sorted by rows, then columns
+};
+
+/// Tiles the square matrix of all pairs of nodes with blocks, slab by slab. `nodes`: in the order
+/// of recursive bisection (mesh/bisection.hpp), whose ranges are the clusters. O(n) blocks.
+std::vector<Slab> make_partition(const std::vector<Vec3>& nodes, const PartitionOptions& options);
+
+}  // namespace bem

@@ -1,0 +1,150 @@
+#include "compress/low_rank_builder.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bem {
+namespace {
+
+constexpr double kLeast = 1.0;      ///< quanta: what a direction must carry to be kept
+constexpr double kMost8 = 300;      ///< quanta: what a direction of 8-bit numbers carries at most
+constexpr double kMost16 = 100000;  ///< the same for 16-bit ones
+constexpr double kWorthTrying = 0.3;  ///< of all directions: from here on plain blocks are tried
+
+/// Scales the directions (columns) of a basis to the numbers of their width.
+std::vector<float> scale_directions(FloatMatrix& basis, const Eigen::VectorXf& weights,
+                                    double quantum) {
+  std::vector<float> scales;
+  for (Eigen::Index j = 0; j < basis.cols(); ++j) {
+    const float most = weights[j] <= kMost8 * quantum    ? 127.0F
+                       : weights[j] <= kMost16 * quantum ? 32767.0F
+                                                         : 16777216.0F;
+    const float scale = basis.col(j).cwiseAbs().maxCoeff() / most;
+    basis.col(j) /= scale;
+    scales.push_back(scale);
+  }
+  return scales;
+}
+
+}  // namespace
+
+/// What a block becomes.
+struct LowRankBuilder::Encoded {
+  LowRankBlock block;
+  std::vector<Layers> couplings;
+  std::vector<float> input_scales, output_scales;
+  std::vector<std::uint8_t> analysis, synthesis;
+  double squared_error = 0;
+
+  std::size_t bytes() const {
+    return analysis.size() + synthesis.size() + 4 * (input_scales.size() + output_scales.size());
+  }
+};
+
+LowRankBuilder::LowRankBuilder(std::vector<Slab> partition, int count, double quantum)
+    : partition_(std::move(partition)), count_(count), quantum_(quantum) {}
+
+double LowRankBuilder::quantum_for(double tolerance, double norm, std::size_t size, int count) {
+  constexpr double kQuanta = 5;  // of an entry's share in the error; measured
+  return kQuanta * tolerance * norm /
+         (static_cast<double>(size) * std::sqrt(static_cast<double>(count)));
+}
+
+void LowRankBuilder::encode_with_bases(const BlockFactors& factors, Encoded& out) const {
+  // outputs: columns are directions; inputs: stored with a direction per row
+  FloatMatrix outputs = factors.output_basis, inputs = factors.input_basis;
+  out.output_scales = scale_directions(outputs, factors.output_weights, quantum_);
+  out.input_scales = scale_directions(inputs, factors.input_weights, quantum_);
+  inputs.transposeInPlace();
+  out.squared_error = factors.squared_error;
+  for (FloatMatrix c : factors.coupling) {
+    c /= static_cast<float>(quantum_);
+    out.couplings.push_back(fit_layers(c));
+    store_layers(out.couplings.back(), c, out.synthesis);
+    out.squared_error += quantum_ * quantum_ * c.cast<double>().squaredNorm();
+  }
+  out.block.output_basis = fit_layers(outputs);
+  store_layers(out.block.output_basis, outputs, out.synthesis);
+  out.block.input_basis = fit_layers(inputs);
+  store_layers(out.block.input_basis, inputs, out.analysis);
+  for (Eigen::Index i = 0; i < outputs.cols(); ++i)
+    out.squared_error += std::pow(factors.output_weights[i] * out.output_scales[i], 2) *
+                         outputs.col(i).squaredNorm();
+  for (Eigen::Index i = 0; i < inputs.rows(); ++i)
+    out.squared_error += std::pow(factors.input_weights[i] * out.input_scales[i], 2) *
+                         inputs.row(i).squaredNorm();
+}
+
+LowRankBuilder::Encoded LowRankBuilder::encode(const NodeBlock& b, int slab_begin,
+                                               const std::vector<BlockView>& matrices) const {
+  std::vector<BlockView> views;
+  for (const BlockView& m : matrices)
+    views.emplace_back(m.data() + 3 * b.column_begin * m.outerStride() +
+                           3 * (b.row_begin - slab_begin),
+                       3 * b.rows(), 3 * b.columns(), Eigen::OuterStride<>(m.outerStride()));
+  Encoded out;
+  out.block.row_begin = 3 * b.row_begin;
+  out.block.row_end = 3 * b.row_end;
+  out.block.column_begin = 3 * b.column_begin;
+  out.block.column_end = 3 * b.column_end;
+  Encoded plain = out;
+  const BlockFactors factors = factor_block(views, kLeast * quantum_);
+  if (factors.output_weights.size() > 0) {
+    encode_with_bases(factors, out);
+  } else {  // nothing of it counts: plain without numbers
+    out.block.plain = true;
+    out.couplings.assign(count_, Layers());
+    out.squared_error = factors.squared_error;
+    return out;
+  }
+  const double most = kWorthTrying * static_cast<double>(std::min(out.block.rows(), out.block.columns()));
+  if (static_cast<double>(factors.output_weights.size()) < most) return out;
+  plain.block.plain = true;
+  for (const BlockView& v : views) {
+    FloatMatrix entries = v / static_cast<float>(quantum_);
+    plain.couplings.push_back(fit_layers(entries));
+    store_layers(plain.couplings.back(), entries, plain.synthesis);
+    plain.squared_error += quantum_ * quantum_ * entries.cast<double>().squaredNorm();
+  }
+  return plain.bytes() <= out.bytes() ? plain : out;
+}
+
+void LowRankBuilder::add_slab(const std::vector<BlockView>& matrices) {
+  require(slabs_.size() < partition_.size() && static_cast<int>(matrices.size()) == count_,
+          "a slab has its rows of every matrix");
+  const Slab& slab = partition_[slabs_.size()];
+  std::vector<Encoded> encoded(slab.blocks.size());
+  parallel_for(slab.blocks.size(),
+               [&](std::size_t b) { encoded[b] = encode(slab.blocks[b], slab.row_begin, matrices); });
+  LowRankSlab out;
+  out.row_begin = 3 * slab.row_begin;
+  out.row_end = 3 * slab.row_end;
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (const Encoded& e : encoded) {
+    out.blocks.push_back(e.block);
+    append(out.couplings, e.couplings);
+    append(out.input_scales, e.input_scales);
+    append(out.output_scales, e.output_scales);
+    append(out.analysis, e.analysis);
+    append(out.synthesis, e.synthesis);
+    squared_error_ += e.squared_error;
+  }
+  slabs_.push_back(std::move(out));
+}
+
+double LowRankBuilder::error() const {
+  return std::sqrt(squared_error_);
+}
+
+std::unique_ptr<LowRankFamily> LowRankBuilder::finish() {
+  require(slabs_.size() == partition_.size(), "all slabs have been added");
+  return std::make_unique<LowRankFamily>(3 * static_cast<std::size_t>(partition_.back().row_end),
+                                         count_, quantum_, std::move(slabs_));
+}
+
+}  // namespace bem

@@ -1,0 +1,334 @@
+#include "compress/low_rank_family.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+#include <algorithm>
+
+namespace bem {
+namespace {
+
+/// Bytes behind a slab's numbers that vector loads may touch.
+constexpr std::size_t kReadBeyond = 64;
+
+using FloatVector = Eigen::VectorXf;
+
+/// A layered matrix with the zeros that it does not store.
+FloatMatrix load_all(const Layers& layers, const std::uint8_t* data, int rows, int columns) {
+  FloatMatrix out = FloatMatrix::Zero(rows, columns);
+  out.topLeftCorner(layers.stored_rows(), layers.stored_columns()) = load_layers(layers, data);
+  return out;
+}
+
+/// Positions of those of the indices that are in [begin, end).
+std::vector<int> positions_in(const std::vector<int>& indices, int begin, int end) {
+  std::vector<int> out;
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    if (indices[i] >= begin && indices[i] < end) out.push_back(static_cast<int>(i));
+  return out;
+}
+
+template <class Term>
+std::vector<Term> by_matrix(std::vector<Term> terms) {
+  std::stable_sort(terms.begin(), terms.end(),
+                   [](const Term& a, const Term& b) { return a.matrix < b.matrix; });
+  return terms;
+}
+
+}  // namespace
+
+LowRankFamily::LowRankFamily(std::size_t size, int count, double quantum,
+                             std::vector<LowRankSlab> slabs)
+    : size_(size), count_(count), quantum_(quantum), slabs_(std::move(slabs)) {
+  for (LowRankSlab& slab : slabs_) {
+    std::size_t analysis = 0, synthesis = 0, inputs = 0, outputs = 0;
+    std::vector<Place> places;
+    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
+      const LowRankBlock& block = slab.blocks[b];
+      Place p;
+      p.analysis = analysis;
+      p.input_scales = inputs;
+      p.output_scales = outputs;
+      p.coefficients = coefficients_;
+      for (int k = 0; k < count_; ++k) {
+        p.couplings.push_back(synthesis);
+        synthesis += slab.couplings[b * count_ + k].bytes();
+      }
+      p.output_basis = synthesis;
+      if (!block.plain) {
+        analysis += block.input_basis.bytes();
+        synthesis += block.output_basis.bytes();
+        inputs += block.input_rank();
+        outputs += block.output_rank();
+        coefficients_ += block.input_rank();
+      }
+      places.push_back(std::move(p));
+    }
+    require(slab.analysis.size() == analysis && slab.synthesis.size() == synthesis &&
+                slab.input_scales.size() == inputs && slab.output_scales.size() == outputs,
+            "a slab has the numbers of its blocks");
+    slab.analysis.reserve(analysis + kReadBeyond);
+    slab.synthesis.reserve(synthesis + kReadBeyond);
+    places_.push_back(std::move(places));
+  }
+}
+
+std::size_t LowRankFamily::bytes() const {
+  std::size_t sum = 0;
+  for (const LowRankSlab& slab : slabs_)
+    sum += slab.analysis.size() + slab.synthesis.size() +
+           sizeof(float) * (slab.input_scales.size() + slab.output_scales.size());
+  return sum;
+}
+
+void LowRankFamily::analyse(const double* x, double* analysed) const {
+  std::copy_n(x, size_, analysed);
+  const FloatVector single =
+      Eigen::Map<const Eigen::VectorXd>(x, static_cast<Eigen::Index>(size_)).cast<float>();
+  parallel_for(slabs_.size(), [&](std::size_t s) {
+    const LowRankSlab& slab = slabs_[s];
+    FloatVector coefficients;
+    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
+      const LowRankBlock& block = slab.blocks[b];
+      if (block.plain) continue;
+      const Place& p = places_[s][b];
+      coefficients.setZero(block.input_rank());
+      multiply_layers(block.input_basis, slab.analysis.data() + p.analysis,
+                      single.data() + block.column_begin, coefficients.data());
+      for (Eigen::Index i = 0; i < coefficients.size(); ++i)
+        analysed[size_ + p.coefficients + i] =
+            coefficients[i] * slab.input_scales[p.input_scales + i];
+    }
+  });
+}
+
+/// The outputs of one slab while its blocks are multiplied one after another.
+class LowRankFamily::SlabProduct {
+ public:
+  SlabProduct(const LowRankFamily& family, std::size_t slab, std::size_t outputs)
+      : family_(family),
+        slab_(family.slabs_[slab]),
+        places_(family.places_[slab]),
+        sums_(Eigen::MatrixXd::Zero(slab_.row_end - slab_.row_begin,
+                                    static_cast<Eigen::Index>(outputs))),
+        touched_(outputs, 0) {}
+
+  /// Begins the products with block b.
+  void begin(std::size_t b) {
+    block_ = &slab_.blocks[b];
+    index_ = b;
+    coupled_.setZero(block_->output_rank(), sums_.cols());
+    std::fill(touched_.begin(), touched_.end(), 0);
+  }
+  /// Where the caller puts the next input, in coefficients of the block.
+  float* input() {
+    input_.resize(block_->input_rank());
+    return input_.data();
+  }
+  void multiply(int matrix, int output) {
+    multiply_layers(slab_.couplings[index_ * family_.count_ + matrix],
+                    slab_.synthesis.data() + places_[index_].couplings[matrix], input_.data(),
+                    coupled_.col(output).data());
+    touched_[output] = 1;
+  }
+  void end() {
+    const auto quantum = static_cast<float>(family_.quantum_);
+    const Place& p = places_[index_];
+    for (Eigen::Index o = 0; o < sums_.cols(); ++o) {
+      if (!touched_[o]) continue;
+      auto sum = sums_.col(o).segment(block_->row_begin - slab_.row_begin, block_->rows());
+      coupled_.col(o) *= quantum;
+      if (block_->plain) {
+        sum += coupled_.col(o).cast<double>();
+        continue;
+      }
+      const Eigen::Map<const FloatVector> scales(slab_.output_scales.data() + p.output_scales,
+                                                 block_->output_rank());
+      coupled_.col(o).array() *= scales.array();
+      synthesised_.setZero(block_->rows());
+      multiply_layers(block_->output_basis, slab_.synthesis.data() + p.output_basis,
+                      coupled_.col(o).data(), synthesised_.data());
+      sum += synthesised_.cast<double>();
+    }
+  }
+  void add_to(const std::vector<double*>& outputs) const {
+    for (std::size_t o = 0; o < outputs.size(); ++o)
+      Eigen::Map<Eigen::VectorXd>(outputs[o] + slab_.row_begin, sums_.rows()) +=
+          sums_.col(static_cast<Eigen::Index>(o));
+  }
+
+ private:
+  const LowRankFamily& family_;
+  const LowRankSlab& slab_;
+  const std::vector<Place>& places_;
+  Eigen::MatrixXd sums_;
+  std::vector<char> touched_;
+  const LowRankBlock* block_ = nullptr;
+  std::size_t index_ = 0;
+  FloatMatrix coupled_;
+  FloatVector input_, synthesised_;
+};
+
+void LowRankFamily::multiply_add(const std::vector<FamilyTerm>& unsorted,
+                                 const std::vector<double*>& outputs) const {
+  const std::vector<FamilyTerm> terms = by_matrix(unsorted);
+  if (terms.empty()) return;
+  parallel_for(slabs_.size(), [&](std::size_t s) {
+    const LowRankSlab& slab = slabs_[s];
+    SlabProduct product(*this, s, outputs.size());
+    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
+      const LowRankBlock& block = slab.blocks[b];
+      const std::size_t first =
+          block.plain ? static_cast<std::size_t>(block.column_begin)
+                      : size_ + places_[s][b].coefficients;
+      product.begin(b);
+      for (const FamilyTerm& t : terms) {
+        if (slab.couplings[b * count_ + t.matrix].stored_rows() == 0) continue;
+        std::copy_n(t.input + first, block.input_rank(), product.input());
+        product.multiply(t.matrix, t.output);
+      }
+      product.end();
+    }
+    product.add_to(outputs);
+  });
+}
+
+void LowRankFamily::multiply_add(const std::vector<SparseTerm>& unsorted,
+                                 const std::vector<double*>& outputs) const {
+  const std::vector<SparseTerm> terms = by_matrix(unsorted);
+  if (terms.empty()) return;
+  parallel_for(slabs_.size(), [&](std::size_t s) {
+    const LowRankSlab& slab = slabs_[s];
+    SlabProduct product(*this, s, outputs.size());
+    FloatVector column;
+    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
+      const LowRankBlock& block = slab.blocks[b];
+      const Place& p = places_[s][b];
+      product.begin(b);
+      for (const SparseTerm& t : terms) {
+        const std::vector<int>& columns = *t.columns;
+        const auto first = std::lower_bound(columns.begin(), columns.end(), block.column_begin);
+        const auto last = std::lower_bound(first, columns.end(), block.column_end);
+        if (first == last || slab.couplings[b * count_ + t.matrix].stored_rows() == 0) continue;
+        float* input = product.input();
+        std::fill_n(input, block.input_rank(), 0.0F);
+        for (auto c = first; c != last; ++c) {
+          const auto value = static_cast<float>(t.values[c - columns.begin()]);
+          const int j = *c - block.column_begin;
+          if (block.plain) {
+            input[j] += value;
+          } else if (j < block.input_basis.stored_columns()) {
+            column.resize(block.input_rank());
+            load_layers_column(block.input_basis, slab.analysis.data() + p.analysis, j,
+                               column.data());
+            for (int i = 0; i < block.input_rank(); ++i)
+              input[i] += value * column[i] * slab.input_scales[p.input_scales + i];
+          }
+        }
+        product.multiply(t.matrix, t.output);
+      }
+      product.end();
+    }
+    product.add_to(outputs);
+  });
+}
+
+void LowRankFamily::multiply_transposed_add(const std::vector<FamilyTerm>& unsorted,
+                                            const std::vector<double*>& outputs) const {
+  const std::vector<FamilyTerm> terms = by_matrix(unsorted);
+  const auto size = static_cast<Eigen::Index>(size_);
+  std::vector<FloatMatrix> sums(slabs_.size());
+  parallel_for(slabs_.size(), [&](std::size_t s) {
+    const LowRankSlab& slab = slabs_[s];
+    sums[s] = FloatMatrix::Zero(size, static_cast<Eigen::Index>(outputs.size()));
+    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
+      const LowRankBlock& block = slab.blocks[b];
+      const Place& p = places_[s][b];
+      FloatMatrix synthesis, coupling;
+      if (!block.plain)
+        synthesis = load_all(block.output_basis, slab.synthesis.data() + p.output_basis,
+                             block.rows(), block.output_rank()) *
+                    Eigen::Map<const FloatVector>(slab.output_scales.data() + p.output_scales,
+                                                  block.output_rank())
+                        .asDiagonal();
+      FloatMatrix coefficients = FloatMatrix::Zero(block.input_rank(), sums[s].cols());
+      int loaded = -1;
+      for (const FamilyTerm& t : terms) {
+        const Layers& layers = slab.couplings[b * count_ + t.matrix];
+        if (t.matrix != loaded)
+          coupling = load_all(layers, slab.synthesis.data() + p.couplings[t.matrix],
+                              block.output_rank(), block.input_rank());
+        loaded = t.matrix;
+        const FloatVector x =
+            Eigen::Map<const Eigen::VectorXd>(t.input + block.row_begin, block.rows())
+                .cast<float>();
+        const FloatVector y = block.plain ? x : FloatVector(synthesis.transpose() * x);
+        coefficients.col(t.output).noalias() += coupling.transpose() * y;
+      }
+      coefficients *= static_cast<float>(quantum_);
+      auto sum = sums[s].middleRows(block.column_begin, block.columns());
+      if (block.plain) {
+        sum += coefficients;
+        continue;
+      }
+      coefficients.array().colwise() *=
+          Eigen::Map<const FloatVector>(slab.input_scales.data() + p.input_scales,
+                                        block.input_rank())
+              .array();
+      sum.noalias() += load_all(block.input_basis, slab.analysis.data() + p.analysis,
+                                block.input_rank(), block.columns())
+                           .transpose() *
+                       coefficients;
+    }
+  });
+  for (const FloatMatrix& part : sums)
+    for (std::size_t o = 0; o < outputs.size(); ++o)
+      Eigen::Map<Eigen::VectorXd>(outputs[o], size) +=
+          part.col(static_cast<Eigen::Index>(o)).cast<double>();
+}
+
+Eigen::MatrixXd LowRankFamily::block(int matrix, const std::vector<int>& rows,
+                                     const std::vector<int>& columns) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()),
+                                              static_cast<Eigen::Index>(columns.size()));
+  const auto relative = [](const std::vector<int>& indices, const std::vector<int>& positions,
+                           int begin) {
+    std::vector<int> result;
+    for (int i : positions) result.push_back(indices[i] - begin);
+    return result;
+  };
+  parallel_for(slabs_.size(), [&](std::size_t s) {  // slabs have different rows
+    const LowRankSlab& slab = slabs_[s];
+    if (positions_in(rows, slab.row_begin, slab.row_end).empty()) return;
+    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
+      const LowRankBlock& k = slab.blocks[b];
+      const Place& p = places_[s][b];
+      const std::vector<int> r = positions_in(rows, k.row_begin, k.row_end);
+      const std::vector<int> c = positions_in(columns, k.column_begin, k.column_end);
+      if (r.empty() || c.empty()) continue;
+      FloatMatrix entries = load_all(slab.couplings[b * count_ + matrix],
+                                     slab.synthesis.data() + p.couplings[matrix], k.output_rank(),
+                                     k.input_rank());
+      const std::vector<int> in_rows = relative(rows, r, k.row_begin);
+      const std::vector<int> in_columns = relative(columns, c, k.column_begin);
+      if (k.plain) {
+        entries = FloatMatrix(entries(in_rows, in_columns));
+      } else {
+        const FloatMatrix left = load_all(k.output_basis, slab.synthesis.data() + p.output_basis,
+                                          k.rows(), k.output_rank())(in_rows, Eigen::all);
+        const FloatMatrix right = load_all(k.input_basis, slab.analysis.data() + p.analysis,
+                                           k.input_rank(), k.columns())(Eigen::all, in_columns);
+        const Eigen::Map<const FloatVector> outputs(slab.output_scales.data() + p.output_scales,
+                                                    k.output_rank());
+        const Eigen::Map<const FloatVector> inputs(slab.input_scales.data() + p.input_scales,
+                                                   k.input_rank());
+        entries = FloatMatrix(left * outputs.asDiagonal() * entries *
+                              (inputs.asDiagonal() * right));
+      }
+      out(r, c) = quantum_ * entries.cast<double>();
+    }
+  });
+  return out;
+}
+
+}  // namespace bem

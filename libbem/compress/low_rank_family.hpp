@@ -1,0 +1,82 @@
+#pragma once
+
+#include "base/aligned.hpp"
+#include "compress/layered_matrix.hpp"
+#include "compress/matrix_family.hpp"
+
+#include <cstdint>
+
+namespace bem {
+
+/// One block of a LowRankFamily. Columns [column_begin, column_end) of an input are brought to the
+/// input basis (analysis), the coupling of every matrix takes them to the output basis, and that to
+/// rows [row_begin, row_end). Where bases would not pay, `plain`, the couplings are the block's
+/// entries themselves.
+struct LowRankBlock {
+  int row_begin = 0, row_end = 0, column_begin = 0, column_end = 0;  ///< unknowns
+  bool plain = false;
+  Layers input_basis;   ///< rank x columns; rows in units of their scales
+  Layers output_basis;  ///< rows x rank; columns in units of their scales
+
+  int rows() const { return row_end - row_begin; }
+  int columns() const { return column_end - column_begin; }
+  int input_rank() const { return plain ? columns() : input_basis.stored_rows(); }
+  int output_rank() const { return plain ? rows() : output_basis.stored_columns(); }
+};
+
+/// The blocks in a range of rows, and their numbers.
+struct LowRankSlab {
+  int row_begin = 0, row_end = 0;  ///< unknowns
+  std::vector<LowRankBlock> blocks;
+  std::vector<Layers> couplings;       ///< [block][matrix], output rank x input rank
+  std::vector<float> input_scales;     ///< of the blocks' input bases, one after another
+  std::vector<float> output_scales;    ///< of their output bases
+  std::vector<std::uint8_t> analysis;  ///< input bases
+  std::vector<std::uint8_t> synthesis;  ///< couplings of a block, then its output basis
+};
+
+/// Codec "lowrank": blocks with bases that are common to all matrices of the family, and numbers of
+/// 8, 16 or 32 bits, as many as what they carry needs.
+class LowRankFamily : public MatrixFamily {
+ public:
+  /// `quantum`: unit of the entries of couplings, the same for the whole family.
+  LowRankFamily(std::size_t size, int count, double quantum, std::vector<LowRankSlab> slabs);
+
+  std::size_t rows() const override { return size_; }
+  std::size_t columns() const override { return size_; }
+  int count() const override { return count_; }
+  std::size_t bytes() const override;
+
+  /// The vector itself and, behind it, its coefficients in the blocks' input bases.
+  std::size_t analysed_size() const override { return size_ + coefficients_; }
+  void analyse(const double* x, double* analysed) const override;
+  void multiply_add(const std::vector<FamilyTerm>& terms,
+                    const std::vector<double*>& outputs) const override;
+  void multiply_add(const std::vector<SparseTerm>& terms,
+                    const std::vector<double*>& outputs) const override;
+  void multiply_transposed_add(const std::vector<FamilyTerm>& terms,
+                               const std::vector<double*>& outputs) const override;
+  Eigen::MatrixXd block(int matrix, const std::vector<int>& rows,
+                        const std::vector<int>& columns) const override;
+
+  double quantum() const { return quantum_; }
+  const std::vector<LowRankSlab>& slabs() const { return slabs_; }
+
+ private:
+  /// Where the numbers of a block are in its slab, and its coefficients in an analysed vector.
+  struct Place {
+    std::size_t analysis = 0, input_scales = 0, output_scales = 0, output_basis = 0;
+    std::size_t coefficients = 0;
+    std::vector<std::size_t> couplings;  ///< by matrix
+  };
+  class SlabProduct;
+
+  std::size_t size_;
+  int count_;
+  double quantum_;
+  std::vector<LowRankSlab> slabs_;
+  std::vector<std::vector<Place>> places_;  ///< [slab][block]
+  std::size_t coefficients_ = 0;
+};
+
+}  // namespace bem
