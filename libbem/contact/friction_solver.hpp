@@ -29,6 +29,7 @@ struct FrictionResult {
   int sweeps = 0;              ///< Gauss-Seidel sweeps of the set that needed most
   int newton_steps = 0;        ///< linear solves of the set that needed most
   double error = 0;            ///< as above
+  double residual = 0;         ///< largest |e| of a set, in the unit of q [m]
   double complementarity = 0;  ///< max |u_n r_n| / (max |r_n| max |q|)
   double penetration = 0;      ///< max of -u_n and 0, in the unit of q [m]
   bool converged = true;       ///< every set is within one of the tolerances

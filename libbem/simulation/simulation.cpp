@@ -75,6 +75,8 @@ Simulation::Simulation(const Scene& scene, ModelSource& source) : scene_(scene) 
   options.contact_tolerance = scene_.contact.tolerance;
   options.method = friction_method(scene_.contact.solver);
   constraints_.emplace(plan_, bodies_, options);
+  momentum_.start = momentum_.end = total_momentum();
+  momentum_.scale = momentum_.start.norm();
   if (!scene_.contact.enabled) return;
   std::vector<ObstacleMesh> obstacles;
   for (const ObstacleSpec& o : scene_.obstacles)
@@ -170,12 +172,14 @@ void Simulation::collide() {
   const double tolerance = scene_.contact.tolerance;
   std::map<ContactKey, ContactPair> known;
   contacts_.clear();
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0;; ++pass) {
     const double start = now();
     bool broken = false;
+    double deepest = 0;
     for (ContactPair& pair : collisions_->detect(bodies_)) {
       const bool wanted = pair.contact.gap_end < (pass == 0 ? tolerance : -tolerance);
       broken = broken || wanted;
+      deepest = std::max(deepest, -pair.contact.gap_end);
       const auto it = known.find(pair.contact.key);
       if (it != known.end())
         it->second = std::move(pair);
@@ -185,6 +189,11 @@ void Simulation::collide() {
     const double solve = now();
     times_.collision += solve - start;
     if (!broken) break;
+    if (pass == kMostPasses) {
+      statistics_.contacts_complete = false;
+      statistics_.penetration = std::max(statistics_.penetration, deepest);
+      break;
+    }
     contacts_.clear();
     for (const auto& [key, pair] : known) contacts_.push_back(pair);
     const ConstraintStatistics last = statistics_;
@@ -194,6 +203,23 @@ void Simulation::collide() {
     statistics_.newton_steps += last.newton_steps;
     times_.constraints += now() - solve;
   }
+}
+
+Vec3 Simulation::total_momentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Body& body : bodies_) sum += body.frame().momentum();
+  return sum;
+}
+
+/// Takes the motion as it is now, and what has brought it about.
+void Simulation::end_step() {
+  Impulses step;
+  for (const Body& body : bodies_) step += body.impulses();
+  constraints_->add_impulses(step);
+  for (Body& body : bodies_) body.end_step();
+  momentum_.impulses += step;
+  momentum_.scale += step.sum_of_norms();
+  momentum_.end = total_momentum();
 }
 
 void Simulation::step() {
@@ -207,7 +233,7 @@ void Simulation::step() {
   times_.constraints += now() - solve;
   if (collisions_) collide();
   const double correct = now();
-  for (Body& body : bodies_) body.end_step();
+  end_step();
   times_.correction += now() - correct;
   ++steps_;
 }
