@@ -269,9 +269,10 @@ Eigen::VectorXd ConstraintSolver::solve_contacts(Problem& p,
   FrictionOptions options;
   options.method = options_.method;
   options.absolute_tolerance = 0.01 * options_.contact_tolerance;
+  options.sufficient = 0.1 * options_.contact_tolerance;
   const Eigen::VectorXd guess = observer_ ? r : Eigen::VectorXd();
   const FrictionResult result = solve_friction(f, r, options);
-  if (observer_) observer_(f, guess, result);
+  if (observer_ && n > 0) observer_(f, guess, result);
   statistics.sweeps += result.sweeps;
   statistics.newton_steps += result.newton_steps;
   statistics.contact_error = result.error;
@@ -308,6 +309,7 @@ ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& con
   ConstraintStatistics statistics;
   statistics.contacts = static_cast<int>(contacts_.size());
   Problem problem;
+  bool linearised_again = false;
   double miss = 0, last_residual = kUnknown;
   Eigen::VectorXd expected;  // displacements of the contacts by the linear problem
   for (;;) {
@@ -336,7 +338,8 @@ ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& con
     }
     if (statistics.iterations > kPatience && residual > kSlow * last_residual) {
       // the bodies may have turned against each other since the matrix was made
-      bool refreshed = false;
+      bool refreshed = !contacts_.empty() && !linearised_again;
+      linearised_again = true;
       for (Mechanism& m : mechanisms_) refreshed = m.refresh() || refreshed;
       if (refreshed) {
         problem.built = false;

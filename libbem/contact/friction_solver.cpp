@@ -18,7 +18,9 @@ SetResult solve_set(const ContactSet& set, const FrictionOptions& options, BestF
     case FrictionMethod::nsgs:
       return solve_nsgs(set, tolerance, options, best);
     case FrictionMethod::newton:
-      return solve_newton(set, tolerance, options, best);
+      return solve_newton(set, tolerance,
+                          std::max(tolerance, options.sufficient / set.displacement_unit), options,
+                          best);
   }
   return {};
 }

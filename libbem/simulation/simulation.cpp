@@ -46,13 +46,6 @@ FrictionMethod friction_method(ContactSolver solver) {
   return FrictionMethod::newton;
 }
 
-/// The scheme of the scene's deformable bodies, which rigid bodies follow.
-Scheme common_scheme(const std::map<std::string, SharedModel>& models) {
-  for (const auto& [path, shared] : models)
-    if (shared.model->kind == ModelKind::dynamic) return shared.model->discretisation.scheme;
-  return Scheme::radau2();
-}
-
 }  // namespace
 
 void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
@@ -63,6 +56,26 @@ void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
                   to_text(scene.time_step) + " s (" + where(scene.time_step_location) +
                   "); make the archive again with --dt " + to_text(scene.time_step) +
                   ", or change the scene");
+}
+
+std::vector<Scheme> body_schemes(const Scene& scene,
+                                 const std::vector<const Discretisation*>& deformable) {
+  Scheme common = Scheme::radau2();
+  for (auto d = deformable.rbegin(); d != deformable.rend(); ++d)
+    if (*d) common = (*d)->scheme;
+  std::vector<Scheme> schemes;
+  for (const Discretisation* d : deformable) schemes.push_back(d ? d->scheme : common);
+  for (const JointSpec& joint : scene.joints) {
+    if (!joint.b) continue;
+    const std::size_t a = joint.a.body, b = joint.b->body;
+    if (schemes[a].name() == schemes[b].name()) continue;
+    throw Error(ErrorCode::archive,
+                where(joint.location) + ": the joint connects " + in_quotes(scene.bodies[a].name) +
+                    ", which moves by " + schemes[a].name() + ", with " +
+                    in_quotes(scene.bodies[b].name) + ", which moves by " + schemes[b].name() +
+                    "; make their archives with the same --scheme");
+  }
+  return schemes;
 }
 
 long step_count(double duration, double time_step) {
@@ -105,11 +118,16 @@ void Simulation::load(ModelSource& source) {
     }
   }
   plan_ = plan_joints(scene_, geometries);
-  const Scheme scheme = common_scheme(models);
+  std::vector<const Discretisation*> deformable;
+  for (const BodySpec& body : scene_.bodies) {
+    const BodyModel& model = *models[body.archive.resolved].model;
+    deformable.push_back(model.kind == ModelKind::rigid ? nullptr : &model.discretisation);
+  }
+  const std::vector<Scheme> schemes = body_schemes(scene_, deformable);
   for (const auto& [path, users] : by_archive) {
     SharedModel& s = models[path];
     if (s.model->kind == ModelKind::rigid) {
-      s.model = rigid_with_scheme(*s.model, scheme);
+      s.model = rigid_with_scheme(*s.model, schemes[users[0]]);
       continue;
     }
     sharing_.push_back(users);

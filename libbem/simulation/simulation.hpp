@@ -82,6 +82,12 @@ class Simulation {
 /// another time step than the scene's.
 void check_time_step(const Scene& scene, const BodySpec& body, double archive_time_step);
 
+/// The time discretisations of a scene's bodies in their order, from those of the deformable ones;
+/// rigid bodies (null) take that of the first. Throws ErrorCode::archive, naming the place in the
+/// scene, if a joint connects bodies with different ones.
+std::vector<Scheme> body_schemes(const Scene& scene,
+                                 const std::vector<const Discretisation*>& deformable);
+
 /// Number of steps of a scene: duration / time step, rounded to the nearest.
 long step_count(double duration, double time_step);
 
