@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs what building, testing and drawing need on Debian 12, and does nothing where all of it
-# is there. ffmpeg (videos) is optional: without it there is only a warning.
+# is there. ffmpeg (videos) and Siconos (a comparison in the benchmarks) are optional: without them
+# there is only a warning.
 set -euo pipefail
 
 usage="usage: scripts/setup.sh [--bench] [--lint] [--npm]
-  --bench  also what the benchmarks need
+  --bench  also what the benchmarks need, and Siconos to compare with
   --lint   also clang-format and clang-tidy
   --npm    also npm, which fetches example meshes"
 
@@ -22,7 +23,7 @@ packages=(
 optional=(ffmpeg)
 for argument in "$@"; do
   case "$argument" in
-    --bench) packages+=(libbenchmark-dev libopenblas-dev) ;;
+    --bench) packages+=(libbenchmark-dev libopenblas-dev); optional+=(libsiconos-numerics-dev) ;;
     --lint) packages+=(clang-format clang-tidy) ;;
     --npm) command -v npm >/dev/null || packages+=(nodejs npm) ;;
     -h | --help) echo "$usage"; exit 0 ;;
@@ -69,5 +70,5 @@ fi
 mapfile -t missing < <(missing_of "${optional[@]}")
 if [[ ${#missing[@]} -gt 0 ]]; then
   echo "Installing ${missing[*]} (optional)"
-  install "${missing[@]}" || echo "warning: without ${missing[*]} no videos can be written" >&2
+  install "${missing[@]}" || echo "warning: not installed: ${missing[*]} (videos need ffmpeg; Siconos is for comparisons)" >&2
 fi

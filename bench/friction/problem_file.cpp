@@ -54,4 +54,33 @@ FrictionProblem read_friction_problem(const std::string& path) {
   return problem;
 }
 
+void write_friction_problem(const std::string& path, const FrictionProblem& problem) {
+  const auto n = static_cast<std::size_t>(problem.contacts());
+  std::vector<std::vector<int>> rows(n);  // contacts with a block in a column
+  std::vector<std::vector<const Mat3*>> blocks(n);
+  for (int i = 0; i < problem.contacts(); ++i)
+    for (int k = problem.row_start[i]; k < problem.row_start[i + 1]; ++k) {
+      rows[problem.columns[k]].push_back(i);
+      blocks[problem.columns[k]].push_back(&problem.blocks[k]);
+    }
+  std::vector<double> data;
+  std::vector<std::int64_t> indices, starts = {0};
+  for (std::size_t column = 0; column < n; ++column)
+    for (int c = 0; c < 3; ++c) {
+      for (std::size_t b = 0; b < rows[column].size(); ++b)
+        for (int r = 0; r < 3; ++r) {
+          data.push_back((*blocks[column][b])(r, c));
+          indices.push_back(3 * rows[column][b] + r);
+        }
+      starts.push_back(static_cast<std::int64_t>(data.size()));
+    }
+  Hdf5File file = Hdf5File::create(path);
+  file.write("/W/data", data, {data.size()});
+  file.write("/W/indices", indices, {indices.size()});
+  file.write("/W/indptr", starts, {starts.size()});
+  file.write("/q", problem.q.data(), {3 * n});
+  file.write("/mu", problem.mu.data(), {n});
+  file.close();
+}
+
 }  // namespace bem

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace bem {
 namespace {
@@ -63,6 +64,38 @@ void ConstraintSolver::begin_step(double t, double dt) {
   for (Mechanism& m : mechanisms_) m.activate(t + dt);
 }
 
+/// What the contact solver starts from: the force of the same contact in the last call. A vertex or
+/// edge that has left triangles or edges of a surface for others of it takes their forces along, in
+/// equal parts.
+std::vector<Vec3> ConstraintSolver::starting_forces() const {
+  const auto mover = [](ContactKey key) {
+    key.feature_b = -1;
+    return key;
+  };
+  std::set<ContactKey> present;
+  std::map<ContactKey, int> arrivals;
+  for (const ContactPair& pair : contacts_) {
+    present.insert(pair.contact.key);
+    arrivals[mover(pair.contact.key)] += known_forces_.count(pair.contact.key) == 0;
+  }
+  std::map<ContactKey, Vec3> left;
+  for (const auto& [key, force] : known_forces_)
+    if (present.count(key) == 0) left.try_emplace(mover(key), Vec3::Zero()).first->second += force;
+  std::vector<Vec3> out;
+  for (const ContactPair& pair : contacts_) {
+    const ContactKey& key = pair.contact.key;
+    const auto known = known_forces_.find(key);
+    const auto moved = left.find(mover(key));
+    if (known != known_forces_.end())
+      out.push_back(known->second);
+    else if (moved != left.end())
+      out.emplace_back(moved->second / arrivals[mover(key)]);
+    else
+      out.emplace_back(Vec3::Zero());
+  }
+  return out;
+}
+
 /// Tells the bodies which of their nodes are in contact, and finds the forces to start from.
 void ConstraintSolver::place_contacts(const std::vector<ContactPair>& contacts) {
   contacts_ = contacts;
@@ -70,7 +103,7 @@ void ConstraintSolver::place_contacts(const std::vector<ContactPair>& contacts) 
   // The problem is linearised about the motion without contact forces: those of the last step, some
   // of them on contacts that are gone, may throw a light body far away.
   forces_.assign(contacts_.size(), Vec3::Zero());
-  guesses_.clear();
+  guesses_ = starting_forces();
   ports_.assign(bodies_->size(), {});
   std::vector<std::vector<int>> nodes(bodies_->size());
   const auto for_each_end = [&](const auto& f) {
@@ -87,11 +120,7 @@ void ConstraintSolver::place_contacts(const std::vector<ContactPair>& contacts) 
     nodes[b].erase(std::unique(nodes[b].begin(), nodes[b].end()), nodes[b].end());
     (*bodies_)[b].set_contact_nodes(nodes[b]);
   }
-  for (const ContactPair& pair : contacts_) {
-    frames_.push_back(contact_frame(pair.contact.normal));
-    const auto known = known_forces_.find(pair.contact.key);
-    guesses_.push_back(known == known_forces_.end() ? Vec3(Vec3::Zero()) : known->second);
-  }
+  for (const ContactPair& pair : contacts_) frames_.push_back(contact_frame(pair.contact.normal));
   for_each_end([&](std::size_t c, int body, const SurfacePoint& p, double sign) {
     Port port;
     port.constraint = static_cast<int>(c);
@@ -240,10 +269,14 @@ Eigen::VectorXd ConstraintSolver::solve_contacts(Problem& p,
   FrictionOptions options;
   options.method = options_.method;
   options.absolute_tolerance = 0.01 * options_.contact_tolerance;
+  options.sufficient = 0.1 * options_.contact_tolerance;
+  const Eigen::VectorXd guess = observer_ ? r : Eigen::VectorXd();
   const FrictionResult result = solve_friction(f, r, options);
+  if (observer_ && n > 0) observer_(f, guess, result);
   statistics.sweeps += result.sweeps;
   statistics.newton_steps += result.newton_steps;
   statistics.contact_error = result.error;
+  statistics.contact_residual = result.residual;
   statistics.complementarity = result.complementarity;
   for (int c = 0; c < n; ++c) guesses_[c] = forces_[c] = frames_[c] * r.segment<3>(3 * c);
   for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
@@ -259,7 +292,6 @@ Eigen::VectorXd ConstraintSolver::solve_contacts(Problem& p,
     }
     mechanisms_[m].add_forces(change);
   }
-  statistics.converged = result.converged;
   return f.q + compliance_times(f, r);
 }
 
@@ -277,7 +309,8 @@ ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& con
   ConstraintStatistics statistics;
   statistics.contacts = static_cast<int>(contacts_.size());
   Problem problem;
-  double last_residual = std::numeric_limits<double>::infinity();
+  bool linearised_again = false;
+  double miss = 0, last_residual = kUnknown;
   Eigen::VectorXd expected;  // displacements of the contacts by the linear problem
   for (;;) {
     ++statistics.iterations;
@@ -292,7 +325,7 @@ ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& con
       statistics.joint_residual = std::max(residual, statistics.joint_residual);
       joints_met = joints_met && residual <= joint_tolerance(mechanisms_[m]);
     }
-    const double miss = expected.size() > 0 ? (u - expected).cwiseAbs().maxCoeff() : kUnknown;
+    miss = expected.size() > 0 ? (u - expected).cwiseAbs().maxCoeff() : kUnknown;
     const bool contacts_met = miss <= 0.1 * options_.contact_tolerance;
     statistics.penetration = 0;
     for (Eigen::Index c = 0; c < u.size(); c += 3)
@@ -300,17 +333,18 @@ ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& con
     const bool met = joints_met && (contacts_.empty() ? turn < 1e-12 : contacts_met);
     const double residual = statistics.joint_residual + (contacts_.empty() ? turn : miss);
     if (met || std::isnan(residual) || statistics.iterations >= kMostIterations) {
-      statistics.converged = statistics.converged && met;
+      statistics.joints_met = joints_met && (!contacts_.empty() || turn < 1e-12);
       break;
     }
     if (statistics.iterations > kPatience && residual > kSlow * last_residual) {
       // the bodies may have turned against each other since the matrix was made
-      bool refreshed = false;
+      bool refreshed = !contacts_.empty() && !linearised_again;
+      linearised_again = true;
       for (Mechanism& m : mechanisms_) refreshed = m.refresh() || refreshed;
       if (refreshed) {
         problem.built = false;
       } else if (residual > kStalled * last_residual) {  // rounding ends the progress
-        statistics.converged = statistics.converged && residual <= options_.contact_tolerance;
+        statistics.joints_met = statistics.joint_residual <= options_.contact_tolerance;
         break;
       }
     }
@@ -323,10 +357,21 @@ ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& con
     expected = solve_contacts(problem, changes, u, statistics);
   }
   if (contacts_.empty()) return statistics;
+  statistics.contact_residual =
+      std::isnan(miss) ? kUnknown : std::max(statistics.contact_residual, miss);
+  statistics.contacts_met = statistics.contact_residual <= options_.contact_tolerance;
   known_forces_.clear();
   for (std::size_t c = 0; c < contacts_.size(); ++c)
     known_forces_[contacts_[c].contact.key] = forces_[c];
   return statistics;
+}
+
+void ConstraintSolver::add_impulses(Impulses& sum) const {
+  for (const Mechanism& m : mechanisms_) sum.joints += m.impulse_from_world();
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    if (contacts_[c].body_b < 0) sum.obstacles += dt_ * forces_[c];
+    if (contacts_[c].body_a < 0) sum.obstacles -= dt_ * forces_[c];
+  }
 }
 
 }  // namespace bem

@@ -4,6 +4,7 @@
 #include "contact/friction_solver.hpp"
 #include "contact/mechanism.hpp"
 
+#include <functional>
 #include <map>
 
 namespace bem {
@@ -24,16 +25,25 @@ struct ConstraintStatistics {
   double joint_residual = 0;  ///< largest distance of a joint's points, per axis [m]
   int sweeps = 0;             ///< Gauss-Seidel sweeps of the contact solver, all calls
   int newton_steps = 0;
-  double contact_error = 0;  ///< of the last contact solve, relative
+  double contact_error = 0;     ///< of the last contact solve, relative
+  double contact_residual = 0;  ///< what the contacts' displacements are wrong by [m]
   double complementarity = 0;
   double penetration = 0;  ///< left at the contacts [m]
-  bool converged = true;
+  bool joints_met = true;
+  bool contacts_met = true;       ///< contact_residual is within the tolerance
+  bool contacts_complete = true;  ///< the motion breaks no contacts but those solved for
+
+  bool converged() const { return joints_met && contacts_met && contacts_complete; }
 };
 
 struct ConstraintOptions {
   double contact_tolerance = 1e-6;  ///< error of the contacts' displacements [m]
   FrictionMethod method = FrictionMethod::newton;
 };
+
+/// Is shown every contact problem, the forces that its solution started from, and the result.
+using ContactObserver =
+    std::function<void(const FrictionProblem&, const Eigen::VectorXd&, const FrictionResult&)>;
 
 /// All forces of a step that are not prescribed, solved together: joints at every stage, contact
 /// with friction by one force per step. The linear problem is the dense compliance of the nodes
@@ -52,15 +62,22 @@ class ConstraintSolver {
 
   /// Finds the forces under which the bodies, which begin_step() must have started, meet all joints
   /// and the given contacts, and leaves the bodies updated. Starts from the forces of the last call
-  /// for joints and for contacts with the same key.
+  /// for joints, for contacts with the same key, and for vertices and edges that have come to
+  /// another triangle or edge of the same surface.
   ConstraintStatistics solve(const std::vector<ContactPair>& contacts);
+
+  /// Adds the impulses of joints to the world and of obstacles in the step as solved [N s].
+  void add_impulses(Impulses& sum) const;
 
   /// World forces on side a of the contacts of the last call [N].
   const std::vector<Vec3>& contact_forces() const { return forces_; }
 
+  void observe_contacts(ContactObserver observer) { observer_ = std::move(observer); }
+
  private:
   struct Problem;
   void place_contacts(const std::vector<ContactPair>& contacts);
+  std::vector<Vec3> starting_forces() const;
   void build(Problem& p);
   double update();
   Eigen::VectorXd contact_displacements() const;
@@ -83,6 +100,7 @@ class ConstraintSolver {
   std::vector<Vec3> forces_;              ///< on side a, world
   std::vector<Vec3> guesses_;             ///< what the contact solver starts from
   std::map<ContactKey, Vec3> known_forces_;
+  ContactObserver observer_;
 };
 
 }  // namespace bem

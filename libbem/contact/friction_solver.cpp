@@ -18,7 +18,9 @@ SetResult solve_set(const ContactSet& set, const FrictionOptions& options, BestF
     case FrictionMethod::nsgs:
       return solve_nsgs(set, tolerance, options, best);
     case FrictionMethod::newton:
-      return solve_newton(set, tolerance, options, best);
+      return solve_newton(set, tolerance,
+                          std::max(tolerance, options.sufficient / set.displacement_unit), options,
+                          best);
   }
   return {};
 }
@@ -60,7 +62,7 @@ FrictionResult solve_friction(const FrictionProblem& problem, Eigen::VectorXd& f
   for (const ContactSet& set : connected_sets(problem)) {
     if (!set.finite) {
       result.converged = false;
-      result.error = std::numeric_limits<double>::infinity();
+      result.error = result.residual = std::numeric_limits<double>::infinity();
       continue;
     }
     BestForces best(set, start_of(set, forces));
@@ -68,6 +70,7 @@ FrictionResult solve_friction(const FrictionProblem& problem, Eigen::VectorXd& f
     result.sweeps = std::max(result.sweeps, done.sweeps);
     result.newton_steps = std::max(result.newton_steps, done.newton_steps);
     result.error = std::max(result.error, done.error);
+    result.residual = std::max(result.residual, done.error * set.displacement_unit);
     result.converged = result.converged &&
                        done.error <= std::max(options.tolerance,
                                               options.absolute_tolerance / set.displacement_unit);

@@ -21,14 +21,17 @@ struct FrictionOptions {
   FrictionMethod method = FrictionMethod::newton;
   double tolerance = 1e-8;        ///< of the error
   double absolute_tolerance = 0;  ///< of |e| in the unit of q [m]: a set at or below it is solved
-  int max_sweeps = 2000;          ///< Gauss-Seidel sweeps (staggered, nsgs)
-  int max_newton_steps = 200;     ///< linear solves (newton)
+  /// |e| [m] of a set that is not worth the fallbacks of `newton` once its fast stages have failed.
+  double sufficient = 0;
+  int max_sweeps = 2000;        ///< Gauss-Seidel sweeps (staggered, nsgs)
+  int max_newton_steps = 1000;  ///< linear solves (newton)
 };
 
 struct FrictionResult {
   int sweeps = 0;              ///< Gauss-Seidel sweeps of the set that needed most
   int newton_steps = 0;        ///< linear solves of the set that needed most
   double error = 0;            ///< as above
+  double residual = 0;         ///< largest |e| of a set, in the unit of q [m]
   double complementarity = 0;  ///< max |u_n r_n| / (max |r_n| max |q|)
   double penetration = 0;      ///< max of -u_n and 0, in the unit of q [m]
   bool converged = true;       ///< every set is within one of the tolerances

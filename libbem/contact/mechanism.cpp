@@ -156,6 +156,21 @@ void Mechanism::apply_forces() {
   }
 }
 
+Vec3 Mechanism::impulse_from_world() const {
+  Vec3 sum = Vec3::Zero();
+  for (int j : active_) {
+    const Joint& joint = plan_->joints[joints_[j]];
+    if (!joint.to_world()) continue;
+    const Body& body = (*all_bodies_)[joint.a.body];
+    std::vector<Vec3> forces;
+    for (int a = 0; a < stages_; ++a)
+      forces.emplace_back(body.force_rotation(a) *
+                          forces_.col(a).segment<3>(static_cast<Eigen::Index>(3 * j)));
+    sum += body.frame().impulse_of(forces);
+  }
+  return sum;
+}
+
 void Mechanism::add_coupling(int body, const std::vector<Port>& contacts,
                              Eigen::MatrixXd& joints_by_contacts,
                              Eigen::MatrixXd& contacts_by_joints) const {

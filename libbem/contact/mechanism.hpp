@@ -41,6 +41,9 @@ class Mechanism {
   void add_forces(const Eigen::VectorXd& change);
   /// Writes the joint forces to the bodies, for the rotations of their last update.
   void apply_forces();
+  /// Impulse of the joints that connect the bodies with the world in the step that their last
+  /// update has computed [N s].
+  Vec3 impulse_from_world() const;
 
   /// Displacements of the joints by unit contact forces at the ports of one of the bodies, and of
   /// the contacts by unit joint forces, are added to the blocks (unknowns x 3 contacts,

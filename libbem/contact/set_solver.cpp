@@ -94,8 +94,8 @@ SetResult solve_nsgs(const ContactSet& set, double tolerance, const FrictionOpti
   return result;
 }
 
-SetResult solve_newton(const ContactSet& set, double tolerance, const FrictionOptions& options,
-                       BestForces& best) {
+SetResult solve_newton(const ContactSet& set, double tolerance, double sufficient,
+                       const FrictionOptions& options, BestForces& best) {
   if (!BlockSystem::fits(set.problem)) return solve_nsgs(set, tolerance, options, best);
   SetResult result;
   FrictionOptions first = options;
@@ -108,13 +108,13 @@ SetResult solve_newton(const ContactSet& set, double tolerance, const FrictionOp
   attempt.failures = 0;
   int& steps = result.newton_steps;
   steps = newton.solve(tolerance, kFirstAlpha, attempt, best);
-  if (best.error() > tolerance)
+  if (best.error() > sufficient)
     steps += interior_point_and_polish(
-        set, tolerance, std::min(kInteriorSteps, options.max_newton_steps - steps), newton, best);
+        set, sufficient, std::min(kInteriorSteps, options.max_newton_steps - steps), newton, best);
   NewtonLimits rest;
   rest.steps_per_goal = 16;
   rest.steps = options.max_newton_steps - steps;
-  if (best.error() > tolerance) steps += newton.solve(tolerance, kPatientAlpha, rest, best);
+  if (best.error() > sufficient) steps += newton.solve(sufficient, kPatientAlpha, rest, best);
   result.error = best.error();
   return result;
 }

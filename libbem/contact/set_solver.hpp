@@ -28,12 +28,13 @@ class BestForces {
   double error_;
 };
 
-/// Solvers of one set: they improve `best` until its error is at most `tolerance`.
+/// Solvers of one set: they improve `best` until its error is at most `tolerance`; the fallbacks of
+/// solve_newton() until it is at most `sufficient`.
 SetResult solve_staggered(const ContactSet& set, double tolerance, const FrictionOptions& options,
                           BestForces& best);
 SetResult solve_nsgs(const ContactSet& set, double tolerance, const FrictionOptions& options,
                      BestForces& best);
-SetResult solve_newton(const ContactSet& set, double tolerance, const FrictionOptions& options,
-                       BestForces& best);
+SetResult solve_newton(const ContactSet& set, double tolerance, double sufficient,
+                       const FrictionOptions& options, BestForces& best);
 
 }  // namespace bem

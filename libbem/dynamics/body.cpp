@@ -201,13 +201,25 @@ double Body::update() {
     for (int a = 0; a < stage_count_; ++a)
       p.stages.col(a) = p.load.values(stage_time(a), frame_stages_.rotation[a]);
   if (elastic_) node_displacements_ = elastic_->displacements(loads_, nodal_forces());
-  const std::vector<Mat3> last = frame_stages_.rotation;
+  force_rotation_ = frame_stages_.rotation;
   if (drag_.rate > 0) set_lean(frame_stages_.turn);
   frame_stages_ = frame_.stages(frame_loads(), drag_);
   double turn = 0;
   for (int a = 0; a < stage_count_; ++a)
-    turn = std::max(turn, (frame_stages_.rotation[a] - last[a]).norm());
+    turn = std::max(turn, (frame_stages_.rotation[a] - force_rotation_[a]).norm());
   return turn;
+}
+
+Impulses Body::impulses() const {
+  Impulses out;
+  out.gravity = frame_.mass() * dt_ * frame_.gravity();
+  std::vector<Vec3> loads(stage_count_, Vec3::Zero());
+  for (int a = 0; a < stage_count_; ++a)
+    for (const PrescribedLoad& p : loads_)
+      loads[a] += force_rotation_[a] * (p.load.force() * p.stages.col(a));
+  out.loads = frame_.impulse_of(loads);
+  if (!frame_stages_.drag.empty()) out.window = frame_.impulse_of(frame_stages_.drag);
+  return out;
 }
 
 Vec3 Body::joint_position(std::size_t i, int stage) const {

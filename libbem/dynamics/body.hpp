@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dynamics/elastic_part.hpp"
+#include "dynamics/impulses.hpp"
 #include "dynamics/rigid_frame.hpp"
 
 #include <memory>
@@ -77,6 +78,8 @@ class Body {
   Vec3 joint_position(std::size_t i, int stage) const;
   Vec3 contact_position(std::size_t i) const;
   const Mat3& rotation(int stage) const { return frame_stages_.rotation[stage]; }
+  /// The rotation that update() has given directions in body axes, known before it.
+  const Mat3& force_rotation(int stage) const { return force_rotation_[stage]; }
 
   /// d(position at `row_stage`)/d(force of `load_stage`) between groups of nodes, in body axes
   /// [m/N]; contact forces act over the whole step, contact positions are those at its end.
@@ -103,6 +106,8 @@ class Body {
   /// Displacements in body axes, 3 per node [m].
   const Eigen::VectorXd& displacement() const { return displacement_; }
   Vec3 linear_momentum() const { return frame_.mass() * frame_.velocity(); }
+  /// Gravity, loads and window in the step that update() has computed.
+  Impulses impulses() const;
 
  private:
   double stage_time(int stage) const;
@@ -134,6 +139,7 @@ class Body {
   Eigen::VectorXd contact_forces_;
   Vec3 contact_moment_ = Vec3::Zero();
   RigidFrame::Stages frame_stages_;
+  std::vector<Mat3> force_rotation_;
   ElasticPart::Displacements node_displacements_;
   Eigen::VectorXd displacement_, end_displacement_;
   bool end_known_ = false;

@@ -106,7 +106,17 @@ RigidFrame::Stages RigidFrame::stages(const FrameLoads& loads, const FrameDrag& 
     s.translation.push_back(x + 0.5 * t * t * gravity_);
   }
   integrate_rotation(now, before, s);
+  if (drag.rate > 0) measure_drag(drag, s);
   return s;
+}
+
+void RigidFrame::measure_drag(const FrameDrag& drag, Stages& s) const {
+  const double w = drag.rate;
+  for (Eigen::Index i = 0; i < stage_times_.size(); ++i) {
+    const double t = time() + stage_times_[i] * dt_;
+    const Vec3 velocity = s.velocity[i] + t * gravity_ - drag.velocity[i];
+    s.drag.push_back(-mass_ * (2 * w * velocity + w * w * (s.translation[i] - drag.centre[i])));
+  }
 }
 
 void RigidFrame::integrate_rotation(const State& now, const State& before, Stages& s) const {
@@ -157,6 +167,20 @@ void RigidFrame::advance(const Stages& s) {
   state_.angular_momentum = s.angular_momentum.back();
   state_.rotation = orthonormalised(s.rotation.back());
   state_.turn = s.turn.back();
+}
+
+Vec3 RigidFrame::impulse_of(const std::vector<Vec3>& forces) const {
+  Vec3 sum = Vec3::Zero();
+  const Eigen::Index last = stage_times_.size() - 1;
+  for (Eigen::Index j = 0; j <= last; ++j)
+    sum += (multistep_ ? 1 : integration_(last, j)) * dt_ * forces[j];
+  return sum;
+}
+
+Vec3 RigidFrame::momentum() const {
+  Vec3 v = velocity();
+  if (multistep_) v += 0.5 * theta_ * (state_.velocity - previous_.velocity);
+  return mass_ * v;
 }
 
 Vec3 RigidFrame::translation() const {

@@ -53,6 +53,7 @@ class RigidFrame {
     std::vector<Mat3> rotation;     ///< body to world axes
     std::vector<Vec3> velocity, angular_momentum;
     std::vector<Vec3> turn;  ///< stationary frame: linear rotation vector [rad]
+    std::vector<Vec3> drag;  ///< forces of the drag, none without it [N]
   };
 
   /// Frame at the stages of the next step.
@@ -74,6 +75,14 @@ class RigidFrame {
   const StageMatrix& position_by_acceleration() const { return position_by_acceleration_; }
   const Mat3& inverse_inertia() const { return inverse_inertia_; }
   double mass() const { return mass_; }
+  const Vec3& gravity() const { return gravity_; }
+
+  /// Momentum that stage forces give in one step [N s].
+  Vec3 impulse_of(const std::vector<Vec3>& forces) const;
+  /// The momentum that every step changes by exactly the impulse of its forces [N s]. Multistep
+  /// methods spread the effect of a force over several steps; theirs is that of the velocity they
+  /// come to when nothing acts any more.
+  Vec3 momentum() const;
 
   const Mat3& rotation() const { return state_.rotation; }
   Vec3 translation() const;
@@ -92,6 +101,7 @@ class RigidFrame {
   void integrate_momenta(const State& now, const State& before, const FrameLoads& loads,
                          const FrameDrag& drag, Stages& s) const;
   void integrate_rotation(const State& now, const State& before, Stages& s) const;
+  void measure_drag(const FrameDrag& drag, Stages& s) const;
 
   StageVector stage_times_;
   StageMatrix integration_, position_by_acceleration_;

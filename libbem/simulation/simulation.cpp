@@ -46,13 +46,6 @@ FrictionMethod friction_method(ContactSolver solver) {
   return FrictionMethod::newton;
 }
 
-/// The scheme of the scene's deformable bodies, which rigid bodies follow.
-Scheme common_scheme(const std::map<std::string, SharedModel>& models) {
-  for (const auto& [path, shared] : models)
-    if (shared.model->kind == ModelKind::dynamic) return shared.model->discretisation.scheme;
-  return Scheme::radau2();
-}
-
 }  // namespace
 
 void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
@@ -65,6 +58,26 @@ void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
                   ", or change the scene");
 }
 
+std::vector<Scheme> body_schemes(const Scene& scene,
+                                 const std::vector<const Discretisation*>& deformable) {
+  Scheme common = Scheme::radau2();
+  for (auto d = deformable.rbegin(); d != deformable.rend(); ++d)
+    if (*d) common = (*d)->scheme;
+  std::vector<Scheme> schemes;
+  for (const Discretisation* d : deformable) schemes.push_back(d ? d->scheme : common);
+  for (const JointSpec& joint : scene.joints) {
+    if (!joint.b) continue;
+    const std::size_t a = joint.a.body, b = joint.b->body;
+    if (schemes[a].name() == schemes[b].name()) continue;
+    throw Error(ErrorCode::archive,
+                where(joint.location) + ": the joint connects " + in_quotes(scene.bodies[a].name) +
+                    ", which moves by " + schemes[a].name() + ", with " +
+                    in_quotes(scene.bodies[b].name) + ", which moves by " + schemes[b].name() +
+                    "; make their archives with the same --scheme");
+  }
+  return schemes;
+}
+
 long step_count(double duration, double time_step) {
   return std::lround(duration / time_step);
 }
@@ -75,6 +88,8 @@ Simulation::Simulation(const Scene& scene, ModelSource& source) : scene_(scene) 
   options.contact_tolerance = scene_.contact.tolerance;
   options.method = friction_method(scene_.contact.solver);
   constraints_.emplace(plan_, bodies_, options);
+  momentum_.start = momentum_.end = total_momentum();
+  momentum_.scale = momentum_.start.norm();
   if (!scene_.contact.enabled) return;
   std::vector<ObstacleMesh> obstacles;
   for (const ObstacleSpec& o : scene_.obstacles)
@@ -103,11 +118,16 @@ void Simulation::load(ModelSource& source) {
     }
   }
   plan_ = plan_joints(scene_, geometries);
-  const Scheme scheme = common_scheme(models);
+  std::vector<const Discretisation*> deformable;
+  for (const BodySpec& body : scene_.bodies) {
+    const BodyModel& model = *models[body.archive.resolved].model;
+    deformable.push_back(model.kind == ModelKind::rigid ? nullptr : &model.discretisation);
+  }
+  const std::vector<Scheme> schemes = body_schemes(scene_, deformable);
   for (const auto& [path, users] : by_archive) {
     SharedModel& s = models[path];
     if (s.model->kind == ModelKind::rigid) {
-      s.model = rigid_with_scheme(*s.model, scheme);
+      s.model = rigid_with_scheme(*s.model, schemes[users[0]]);
       continue;
     }
     sharing_.push_back(users);
@@ -170,12 +190,14 @@ void Simulation::collide() {
   const double tolerance = scene_.contact.tolerance;
   std::map<ContactKey, ContactPair> known;
   contacts_.clear();
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0;; ++pass) {
     const double start = now();
     bool broken = false;
+    double deepest = 0;
     for (ContactPair& pair : collisions_->detect(bodies_)) {
       const bool wanted = pair.contact.gap_end < (pass == 0 ? tolerance : -tolerance);
       broken = broken || wanted;
+      deepest = std::max(deepest, -pair.contact.gap_end);
       const auto it = known.find(pair.contact.key);
       if (it != known.end())
         it->second = std::move(pair);
@@ -185,6 +207,11 @@ void Simulation::collide() {
     const double solve = now();
     times_.collision += solve - start;
     if (!broken) break;
+    if (pass == kMostPasses) {
+      statistics_.contacts_complete = false;
+      statistics_.penetration = std::max(statistics_.penetration, deepest);
+      break;
+    }
     contacts_.clear();
     for (const auto& [key, pair] : known) contacts_.push_back(pair);
     const ConstraintStatistics last = statistics_;
@@ -194,6 +221,23 @@ void Simulation::collide() {
     statistics_.newton_steps += last.newton_steps;
     times_.constraints += now() - solve;
   }
+}
+
+Vec3 Simulation::total_momentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Body& body : bodies_) sum += body.frame().momentum();
+  return sum;
+}
+
+/// Takes the motion as it is now, and what has brought it about.
+void Simulation::end_step() {
+  Impulses step;
+  for (const Body& body : bodies_) step += body.impulses();
+  constraints_->add_impulses(step);
+  for (Body& body : bodies_) body.end_step();
+  momentum_.impulses += step;
+  momentum_.scale += step.sum_of_norms();
+  momentum_.end = total_momentum();
 }
 
 void Simulation::step() {
@@ -207,7 +251,7 @@ void Simulation::step() {
   times_.constraints += now() - solve;
   if (collisions_) collide();
   const double correct = now();
-  for (Body& body : bodies_) body.end_step();
+  end_step();
   times_.correction += now() - correct;
   ++steps_;
 }

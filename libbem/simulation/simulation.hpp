@@ -42,9 +42,15 @@ class Simulation {
   const Scene& scene() const { return scene_; }
   /// Of the last step.
   const ConstraintStatistics& statistics() const { return statistics_; }
+  /// Linear momentum since the start.
+  const MomentumBalance& momentum() const { return momentum_; }
   /// Contacts of the last step and the world forces on their sides a [N].
   const std::vector<ContactPair>& contacts() const { return contacts_; }
   const std::vector<Vec3>& contact_forces() const { return constraints_->contact_forces(); }
+
+  void observe_contacts(ContactObserver observer) {
+    constraints_->observe_contacts(std::move(observer));
+  }
 
   /// Bytes of the matrices in memory, and how many archives they come from.
   std::size_t matrix_bytes() const { return matrix_bytes_; }
@@ -55,6 +61,8 @@ class Simulation {
   std::vector<int> touched_nodes(const std::vector<int>& users, const BodyModel& model) const;
   void begin_step();
   void collide();
+  Vec3 total_momentum() const;
+  void end_step();
 
   Scene scene_;
   JointPlan plan_;
@@ -64,6 +72,7 @@ class Simulation {
   std::optional<CollisionScene> collisions_;
   std::vector<ContactPair> contacts_;
   ConstraintStatistics statistics_;
+  MomentumBalance momentum_;
   PhaseTimes times_;
   long steps_ = 0;
   std::size_t matrix_bytes_ = 0, archives_ = 0;
@@ -72,6 +81,12 @@ class Simulation {
 /// Throws ErrorCode::archive, naming the place in the scene, if the archive of a body was made for
 /// another time step than the scene's.
 void check_time_step(const Scene& scene, const BodySpec& body, double archive_time_step);
+
+/// The time discretisations of a scene's bodies in their order, from those of the deformable ones;
+/// rigid bodies (null) take that of the first. Throws ErrorCode::archive, naming the place in the
+/// scene, if a joint connects bodies with different ones.
+std::vector<Scheme> body_schemes(const Scene& scene,
+                                 const std::vector<const Discretisation*>& deformable);
 
 /// Number of steps of a scene: duration / time step, rounded to the nearest.
 long step_count(double duration, double time_step);

@@ -107,6 +107,17 @@ class Case(unittest.TestCase):
         self.assertFalse(self.out.exists())
         return done
 
+    def touching_scene(self):
+        """A ball falls on another one on the floor, a third one hangs on a joint."""
+        ball = {"archive": str(models / "ball.bem"), "friction": 0.5}
+        self.scene.update(
+            gravity=[0, 0, -9.81], contact={"enabled": True},
+            bodies=[{"name": "low", "position": [0, 0, 0.1], **ball},
+                    {"name": "high", "position": [0.02, 0.01, 0.31], "velocity": [0, 0, -1], **ball},
+                    {"name": "hung", "position": [1, 0, 1], **ball}],
+            obstacles=[{"name": "floor", "plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}, "friction": 0.5}],
+            joints=[{"type": "point", "a": {"body": "hung", "point": [1.1, 0, 1]}}])
+
     def trajectory(self):
         return h5py.File(self.out / "trajectory.h5", "r")
 
@@ -224,6 +235,16 @@ class Trajectories(Case):
             found.append((self.out / "trajectory.h5").read_bytes())
         with self.trajectory() as file:
             self.assertGreater(np.ptp(file["bodies/held/positions"][:], axis=0).max(), 1e-5)
+        self.assertEqual(found[0], found[1])
+
+    def test_same_bytes_with_contact_for_any_number_of_threads(self):
+        self.touching_scene()
+        found = []
+        for threads in (1, 3):
+            self.simulate("--threads", threads, "--force", "--stats", self.folder / "stats.json")
+            found.append((self.out / "trajectory.h5").read_bytes())
+        stats = json.loads((self.folder / "stats.json").read_text())
+        self.assertGreater(stats["constraints"]["contacts"]["max"], 2)
         self.assertEqual(found[0], found[1])
 
 
@@ -372,7 +393,56 @@ class Statistics(Case):
         self.assertGreaterEqual(constraints["iterations"]["mean"], 1)
         for name in ("steps_not_converged", "steps_with_contact"):
             self.assertEqual(constraints[name], 0)
+        self.assertEqual(constraints["not_met"], {"joints": 0, "contacts": 0, "penetration": 0})
+        self.assertEqual(stats["warnings"], [])
         self.check_bodies(stats["bodies"])
+        self.check_momentum(stats)
+
+    def check_momentum(self, stats):
+        momentum = stats["momentum"]
+        self.assertLess(momentum["relative_defect"], 1e-12)
+        total = sum(np.array(impulse) for impulse in momentum["impulses"].values())
+        change = np.array(momentum["end"]) - momentum["start"]
+        scale = sum(np.linalg.norm(impulse) for impulse in momentum["impulses"].values())
+        np.testing.assert_allclose(change, total, rtol=0, atol=1e-11 * scale)
+        self.assertAlmostEqual(np.linalg.norm(change - total), momentum["defect"], delta=1e-12 * scale)
+        bodies = sum(np.array(body["linear_momentum"]) for body in stats["bodies"])
+        np.testing.assert_allclose(momentum["end"], bodies, rtol=0, atol=1e-12 * scale)
+        return momentum
+
+    def test_momentum_of_bodies_in_contact(self):
+        self.touching_scene()
+        file = self.folder / "stats.json"
+        done = self.simulate("--stats", file)
+        self.assertNotIn("warning", done.stderr)
+        stats = json.loads(file.read_text())
+        self.assertGreater(stats["constraints"]["steps_with_contact"], 5)
+        impulses = self.check_momentum(stats)["impulses"]
+        mass = 3 * DENSITY * volume(*read_obj(models / "ball.obj"))
+        np.testing.assert_allclose(impulses["gravity"], [0, 0, -9.81 * 0.2 * mass], rtol=1e-9, atol=1e-9)
+        for name in ("obstacles", "joints_to_world"):
+            self.assertGreater(impulses[name][2], 0.1)
+        self.assertEqual(impulses["loads"], [0, 0, 0])
+        bodies = {body["name"]: np.array(body["linear_momentum"]) for body in stats["bodies"]}
+        self.assertGreater(np.linalg.norm(bodies["low"][:2]), 1e-4)  # the one has pushed the other
+
+    def test_constraints_that_are_not_met(self):
+        self.touching_scene()
+        self.scene["contact"]["tolerance"] = 1e-14  # rounding alone is more
+        file = self.folder / "stats.json"
+        done = self.simulate("--stats", file)
+        stats = json.loads(file.read_text())
+        missed = stats["constraints"]["steps_not_converged"]
+        self.assertGreater(missed, 0)
+        self.assertGreaterEqual(sum(stats["constraints"]["not_met"].values()), missed)
+        self.assertGreater(stats["constraints"]["not_met"]["penetration"], 0)  # all passes were used
+        lines = [line for line in done.stderr.splitlines() if line.startswith("warning: ")]
+        self.assertEqual(len(lines), 1, done.stderr)
+        self.assertEqual([lines[0][len("warning: "):]], stats["warnings"])
+        for part in (f"in {missed} of 20 steps", "shorter time step", "contact tolerance, 1e-14 m"):
+            self.assertIn(part, lines[0])
+        verbose = self.simulate("--verbose", "--force").stderr
+        self.assertEqual(verbose.count("the constraints of the step to t = "), 1, verbose)
 
     def check_bodies(self, bodies):
         free, held = bodies
@@ -518,6 +588,17 @@ class Failures(Case):
             with self.subTest(part):
                 done = self.simulate(expect=3, scene={**self.scene, "joints": [joint]})
                 self.assert_error(done, "scene.json:", "/joints/0", part)
+
+    def test_joint_between_different_schemes(self):
+        program("bemprecomp", models / "ball.obj", models / "rubber.json", "-o", self.folder / "bdf1.bem",
+                "--dt", DT, "--scheme", "bdf1", "--quiet")
+        self.touching_scene()
+        self.scene["bodies"][0]["archive"] = "bdf1.bem"
+        self.scene["bodies"][1]["position"] = [0, 0, 0.3]
+        self.scene["joints"] = [{"type": "point", "a": {"body": "low", "point": [0, 0, 0.2]},
+                                 "b": {"body": "high", "point": [0, 0, 0.2]}}]
+        self.assert_error(self.simulate(expect=4), "scene.json:", "/joints/0", "bdf1", "radau2", "--scheme")
+        self.check(expect=4)
 
     def test_missing_obstacle(self):
         self.scene["obstacles"] = [{"name": "bowl", "mesh": "bowl.obj"}]

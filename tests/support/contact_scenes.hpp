@@ -22,6 +22,22 @@ inline bem::ObstacleSpec mesh_obstacle(const std::string& mesh, double friction)
   return o;
 }
 
+/// A horizontal square sheet of triangles around the origin.
+inline bem::TriangleMesh sheet(double size, int cells) {
+  bem::TriangleMesh mesh;
+  const double cell = size / cells;
+  for (int i = 0; i <= cells; ++i)
+    for (int j = 0; j <= cells; ++j)
+      mesh.vertices.emplace_back(cell * i - size / 2, cell * j - size / 2, 0);
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j) {
+      const int a = i * (cells + 1) + j, b = a + cells + 1;
+      mesh.triangles.push_back({a, b, b + 1});
+      mesh.triangles.push_back({a, b + 1, a + 1});
+    }
+  return mesh;
+}
+
 inline bem::BodySpec body(const std::string& name, const std::string& archive,
                           const bem::Vec3& position) {
   bem::BodySpec b;

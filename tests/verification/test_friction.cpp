@@ -92,6 +92,6 @@ TEST_CASE("all contact solvers find the same sliding") {
        {ContactSolver::newton, ContactSolver::nsgs, ContactSolver::staggered}) {
     Block block(false, 2e-3, 0.4, 0, Vec3(1, 0, 0), solver);
     CHECK(block.run(0.3)[0] == Approx(way).epsilon(2e-3));
-    CHECK(block.simulation->statistics().converged);
+    CHECK(block.simulation->statistics().converged());
   }
 }

@@ -1,7 +1,7 @@
-// Momentum under surface loads: it equals the impulse, whatever the body does elastically. Printed
+// Momentum: it equals the impulse, whatever the bodies do elastically and to each other. Printed
 // figures are quoted in docs/accuracy.md, "Long runs".
 #include "dynamics/rotation.hpp"
-#include "support/simulate.hpp"
+#include "support/contact_scenes.hpp"
 
 #include <cstdio>
 
@@ -98,6 +98,45 @@ Vec3 rigid_angular_momentum(const Vec3& force, double dt) {
   return s.l;
 }
 
+/// A soft cube with a load that turns with it and a rigid one fall on the floor and on each other,
+/// beside a bar on a joint to the world, a bar on a joint to it, and a third that a handle moves.
+struct Crowd {
+  MemorySource source;
+  Scene scene;
+
+  explicit Crowd(const char* scheme, double window) {
+    const double dt = 2e-3;
+    const Material m = material(1000, 1e6, 0.3);
+    BodyModel bar = elastic_model(box(Vec3(0.3, 0.1, 0.1), {3, 1, 1}), m, dt, scheme);
+    bar.window = window;
+    source.add("bar", std::move(bar));
+    source.add("cube", elastic_model(box(Vec3(0.2, 0.2, 0.2), {2, 2, 2}), m, dt, scheme));
+    source.add("rigid", rigid_model(box(Vec3(0.2, 0.2, 0.2), {1, 1, 1}), 1500));
+    scene = contact_scene(dt, Vec3(0.3, -0.2, -9.81));
+    scene.obstacles = {plane(Vec3::Zero(), Vec3::UnitZ(), 0.4)};
+    scene.bodies = {body("soft", "cube", Vec3(0, 0, 0.101)),
+                    body("stiff", "rigid", Vec3(0.03, 0.02, 0.31)),
+                    body("hung", "bar", Vec3(1.15, 0, 1)), body("end", "bar", Vec3(1.45, 0, 1)),
+                    body("moved", "bar", Vec3(0, 2, 1))};
+    scene.bodies[0].tractions = {end_load(1, Vec3(200, 100, 0), true)};
+    scene.bodies[0].tractions[0].select = box_selection(Vec3(0.099, -1, -1), Vec3(0.101, 1, 1));
+    scene.bodies[0].friction = 0.5;
+    scene.bodies[1].velocity = Vec3(0.5, 0.2, -1);
+    scene.bodies[1].angular_velocity = Vec3(1, 2, 3);
+    scene.joints.resize(2);
+    scene.joints[0].a = {2, Vec3(1, 0, 1), {}};
+    scene.joints[1].a = {3, Vec3(1.3, 0, 1), {}};
+    scene.joints[1].b = JointEnd{2, Vec3(1.3, 0, 1), {}};
+    HandleSpec handle;
+    handle.select = box_selection(Vec3(-0.151, -1, -1), Vec3(-0.149, 1, 1));
+    handle.motion.resize(2);
+    handle.motion[1].time = 0.2;
+    handle.motion[1].translate = Vec3(0.1, 0.2, -0.1);
+    handle.motion[1].rotate.angle = 0.5;
+    scene.bodies[4].handles = {handle};
+  }
+};
+
 }  // namespace
 
 TEST_CASE("linear momentum is the impulse of loads that keep their direction") {
@@ -156,4 +195,32 @@ TEST_CASE("torque of a load that keeps its direction follows the turning body") 
     CHECK(error < limit);
     CHECK(m.drift < 1e-13);
   }
+}
+
+TEST_CASE("momentum of bodies in contact and on joints is the impulse from outside") {
+  for (const char* scheme : kSchemes)
+    for (double window : {1.0, 0.99}) {
+      Crowd crowd(scheme, window);
+      Simulation simulation(crowd.scene, crowd.source);
+      double worst = 0, touching = 0;
+      for (int n = 0; n < 100; ++n) {
+        simulation.step();
+        worst = std::max(worst, simulation.momentum().relative_defect());
+        touching = std::max(touching, simulation.contact_forces().empty() ? 0.0 : 1.0);
+      }
+      const MomentumBalance& m = simulation.momentum();
+      std::printf("momentum of a crowd, %s, window %.2f: relative defect %.1e\n", scheme, window,
+                  worst);
+      INFO(scheme << " " << window);
+      CHECK(worst < 1e-12);
+      CHECK(touching > 0);
+      // all of them act
+      for (const Vec3& impulse :
+           {m.impulses.gravity, m.impulses.loads, m.impulses.joints, m.impulses.obstacles})
+        CHECK(impulse.norm() > 1e-3 * m.scale);
+      CHECK((m.impulses.window.norm() > 0) == (window < 1));
+      // for two stages, and without the last force's rest, it is that of the bodies' velocities
+      if (Scheme::parse(scheme).theta() == 0)
+        CHECK((m.end - linear_momentum(simulation)).norm() < 1e-12 * m.scale);
+    }
 }

@@ -44,7 +44,7 @@ StackRun stack(bool rigid, const std::vector<double>& densities, double duration
     run.moved = std::max(run.moved, std::hypot(way[0], way[1]));
     run.sunk = -way[2];
     run.penetration = std::max(run.penetration, simulation.statistics().penetration);
-    run.unconverged += !simulation.statistics().converged;
+    run.unconverged += !simulation.statistics().converged();
   }
   for (const Body& b : simulation.bodies())
     run.speed = std::max(run.speed, b.frame().velocity().norm());

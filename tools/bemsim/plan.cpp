@@ -145,6 +145,11 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
     plan->bodies.push_back(plan_body(plan->scene, body, source));
     geometries.push_back(&plan->bodies.back().archive->geometry());
   }
+  std::vector<const Discretisation*> deformable;
+  for (const PlannedBody& body : plan->bodies)
+    deformable.push_back(
+        body.archive->kind() == ModelKind::rigid ? nullptr : &body.archive->discretisation());
+  body_schemes(plan->scene, deformable);
   for (const Joint& joint : plan_joints(plan->scene, geometries).joints)
     if (joint.prescribed)
       ++(joint.handle ? plan->bodies[joint.a.body].handled : plan->bodies[joint.a.body].fixed);

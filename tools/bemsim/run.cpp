@@ -110,7 +110,7 @@ class Run {
       check_interrupt();
       timer_.begin(kSteppingPhase);
       simulation_->step();
-      statistics_.record_step(*simulation_);
+      if (const auto unmet = statistics_.record_step(*simulation_)) log_.detail(*unmet);
       if (plan_.schedule.contains(simulation_->steps())) write_frame();
       bar_.update(kSteppingPhase,
                   static_cast<double>(simulation_->steps()) / static_cast<double>(plan_.steps));
@@ -137,6 +137,7 @@ class Run {
     timer_.begin(kOutputPhase);
     for (const auto& writer : writers_) writer->close();
     timer_.end();
+    if (const auto unmet = statistics_.warning(plan_, *simulation_)) log_.warning(*unmet);
     if (stats_file_)
       stats_file_->commit(statistics_.json(plan_, *simulation_, timer_, outcome).dump(2) + "\n");
   }

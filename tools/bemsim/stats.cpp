@@ -41,7 +41,7 @@ Json phases_json(const PhaseTimes& times, double output, long steps) {
 
 }  // namespace
 
-void RunStatistics::record_step(const Simulation& simulation) {
+std::optional<std::string> RunStatistics::record_step(const Simulation& simulation) {
   const ConstraintStatistics& s = simulation.statistics();
   sum_.contacts += s.contacts;
   sum_.iterations += s.iterations;
@@ -53,10 +53,11 @@ void RunStatistics::record_step(const Simulation& simulation) {
   most_.newton_steps = std::max(most_.newton_steps, s.newton_steps);
   most_.joint_residual = std::max(most_.joint_residual, s.joint_residual);
   most_.contact_error = std::max(most_.contact_error, s.contact_error);
+  most_.contact_residual = std::max(most_.contact_residual, s.contact_residual);
   most_.complementarity = std::max(most_.complementarity, s.complementarity);
   most_.penetration = std::max(most_.penetration, s.penetration);
   contact_steps_ += s.contacts > 0;
-  unconverged_steps_ += !s.converged;
+  return unmet_.record(simulation);
 }
 
 Json RunStatistics::constraints_json(long steps) const {
@@ -66,16 +67,31 @@ Json RunStatistics::constraints_json(long steps) const {
   return {{"iterations", count(most_.iterations, sum_.iterations)},
           {"contacts", count(most_.contacts, sum_.contacts)},
           {"steps_with_contact", contact_steps_},
-          {"steps_not_converged", unconverged_steps_},
+          {"steps_not_converged", unmet_.steps()},
+          {"not_met", unmet_.json()},
           {"solver_sweeps", count(most_.sweeps, sum_.sweeps)},
           {"solver_newton_steps", count(most_.newton_steps, sum_.newton_steps)},
           {"largest_joint_residual", most_.joint_residual},
           {"largest_contact_error", most_.contact_error},
+          {"largest_contact_residual", most_.contact_residual},
           {"largest_complementarity", most_.complementarity},
           {"largest_penetration", most_.penetration}};
 }
 
 namespace {
+
+Json momentum_json(const MomentumBalance& m) {
+  return {{"start", vector_json(m.start)},
+          {"end", vector_json(m.end)},
+          {"impulses",
+           {{"gravity", vector_json(m.impulses.gravity)},
+            {"loads", vector_json(m.impulses.loads)},
+            {"obstacles", vector_json(m.impulses.obstacles)},
+            {"joints_to_world", vector_json(m.impulses.joints)},
+            {"window", vector_json(m.impulses.window)}}},
+          {"defect", m.defect()},
+          {"relative_defect", m.relative_defect()}};
+}
 
 Json body_json(const PlannedBody& planned, const Body& body) {
   const BodyModel& model = body.model();
@@ -103,6 +119,8 @@ Json RunStatistics::json(const Plan& plan, const Simulation& simulation, const P
   Json bodies = Json::array();
   for (std::size_t i = 0; i < plan.bodies.size(); ++i)
     bodies.push_back(body_json(plan.bodies[i], simulation.bodies()[i]));
+  std::vector<std::string> warnings = plan.warnings;
+  if (const auto unmet = warning(plan, simulation)) warnings.push_back(*unmet);
   return {{"program", version_text()},
           {"scene", plan.scene.location.file},
           {"outcome", outcome},
@@ -119,8 +137,9 @@ Json RunStatistics::json(const Plan& plan, const Simulation& simulation, const P
           {"matrix_bytes", simulation.matrix_bytes()},
           {"phases", phases_json(simulation.times(), wall_seconds(timer, kOutputPhase), steps)},
           {"constraints", constraints_json(steps)},
+          {"momentum", momentum_json(simulation.momentum())},
           {"bodies", bodies},
-          {"warnings", plan.warnings}};
+          {"warnings", warnings}};
 }
 
 }  // namespace bem

@@ -2,21 +2,22 @@
 
 #include "common/measure.hpp"
 #include "plan.hpp"
-#include "simulation/simulation.hpp"
-
-#include <nlohmann/json_fwd.hpp>
+#include "unmet_constraints.hpp"
 
 namespace bem {
 
 /// What happens in the course of a run, for --stats.
 class RunStatistics {
  public:
-  /// Takes note of how the constraints of a step were met.
-  void record_step(const Simulation& simulation);
+  /// Takes note of how the constraints of a step were met. Returns a description of the first step
+  /// in which they were not.
+  std::optional<std::string> record_step(const Simulation& simulation);
   void record_frame() { ++frames_; }
   long frames() const { return frames_; }
-  /// Steps whose constraints were not met to their tolerances.
-  long unconverged_steps() const { return unconverged_steps_; }
+  /// Says what constraints were not met, if any.
+  std::optional<std::string> warning(const Plan& plan, const Simulation& simulation) const {
+    return unmet_.warning(simulation.steps(), plan.scene.contact);
+  }
 
   /// The file's contents. `outcome`: "complete", "interrupted" or "failed".
   nlohmann::ordered_json json(const Plan& plan, const Simulation& simulation,
@@ -26,7 +27,8 @@ class RunStatistics {
   nlohmann::ordered_json constraints_json(long steps) const;
 
   ConstraintStatistics sum_, most_;  ///< over all steps
-  long contact_steps_ = 0, unconverged_steps_ = 0, frames_ = 0;
+  UnmetConstraints unmet_;
+  long contact_steps_ = 0, frames_ = 0;
 };
 
 /// Names of the timer's phases.

@@ -119,3 +119,22 @@ TEST_CASE("results are the same when solved again, and sets do not see each othe
     CHECK(all.forces.tail(two.q.size()) == solve(two, method).forces);
   }
 }
+
+TEST_CASE("an error that is sufficient saves the fallbacks of newton") {
+  const FrictionProblem p = test::stack_problem(40, 3, 0.1, 0.3);
+  FrictionOptions options;
+  const auto solve = [&] {
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(p.q.size());
+    return solve_friction(p, r, options);
+  };
+  const FrictionResult full = solve();
+  options.sufficient = 0.01 * p.q.norm();
+  const FrictionResult quick = solve();
+  CHECK(full.converged);
+  CHECK(full.residual <= 1e-8 * p.q.norm());
+  CHECK(quick.residual <= options.sufficient);
+  CHECK(quick.newton_steps < 0.5 * full.newton_steps);
+  options.sufficient = 0;
+  options.absolute_tolerance = 0.01 * p.q.norm();
+  CHECK(solve().converged);
+}

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "base/types.hpp"
+
+namespace bem {
+
+/// What acted on bodies from outside, as impulses [N s]: forces by the quadrature of the time
+/// discretisation. Forces between bodies are not among them.
+struct Impulses {
+  Vec3 gravity = Vec3::Zero();
+  Vec3 loads = Vec3::Zero();      ///< prescribed tractions
+  Vec3 window = Vec3::Zero();     ///< the window on the rigid motion of held bodies
+  Vec3 joints = Vec3::Zero();     ///< fixed vertices, handles, joints to the world
+  Vec3 obstacles = Vec3::Zero();  ///< contacts with obstacles
+
+  Impulses& operator+=(const Impulses& other) {
+    gravity += other.gravity;
+    loads += other.loads;
+    window += other.window;
+    joints += other.joints;
+    obstacles += other.obstacles;
+    return *this;
+  }
+  Vec3 total() const { return gravity + loads + window + joints + obstacles; }
+  double sum_of_norms() const {
+    return gravity.norm() + loads.norm() + window.norm() + joints.norm() + obstacles.norm();
+  }
+};
+
+/// Linear momentum of all bodies against the impulses since the start.
+struct MomentumBalance {
+  Vec3 start = Vec3::Zero(), end = Vec3::Zero();  ///< [N s]
+  Impulses impulses;
+  double scale = 0;  ///< |start| plus the magnitudes of the impulses of all steps [N s]
+
+  double defect() const { return (end - start - impulses.total()).norm(); }
+  double relative_defect() const { return scale > 0 ? defect() / scale : 0; }
+};
+
+}  // namespace bem
