@@ -12,12 +12,16 @@ namespace bem {
 inline const char* model_name(ModelKind kind) {
   return kind == ModelKind::rigid ? "rigid" : "dynamic";
 }
-inline constexpr char kArchiveCodec[] = "none";
 
 /// "lag_001".
 inline std::string lag_name(int lag) {
   const std::string digits = std::to_string(lag);
   return "lag_" + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits;
+}
+
+/// Groups of the matrix families.
+inline std::string lags_path(const std::string& matrix) {
+  return "/matrices/" + matrix;
 }
 
 /// Dataset of one component of a lag matrix; `matrix` is "h" or "g".
@@ -29,6 +33,23 @@ inline std::string lag_path(const std::string& matrix, int lag, int component) {
 /// matrix of lag 0.
 inline std::string initial_path(const std::string& matrix, std::size_t component) {
   return "/matrices/" + matrix + "/component_" + std::to_string(component);
+}
+
+/// The datasets of an uncompressed family of lags, in the order of their lag indices.
+inline std::vector<std::string> lag_paths(const std::string& matrix, int history_length,
+                                          int components) {
+  std::vector<std::string> paths;
+  for (int lag = 1; lag <= history_length; ++lag)
+    for (int m = 0; m < components; ++m) paths.push_back(lag_path(matrix, lag, m));
+  return paths;
+}
+
+/// Those of a matrix of lag 0 with `parts` 1 or 2.
+inline std::vector<std::string> initial_paths(const std::string& matrix, std::size_t component,
+                                              int parts) {
+  std::vector<std::string> paths = {initial_path(matrix, component) + "/real"};
+  if (parts > 1) paths.push_back(initial_path(matrix, component) + "/imaginary");
+  return paths;
 }
 
 inline constexpr char kBodyForcePath[] = "/matrices/body_force";

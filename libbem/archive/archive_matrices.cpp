@@ -1,9 +1,12 @@
 #include "archive/archive_layout.hpp"
 #include "archive/archive_reader.hpp"
+#include "archive/low_rank_storage.hpp"
 #include "base/parallel.hpp"
+#include "compress/dense_family.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 // The part of Archive that loads the large matrices.
 
@@ -12,66 +15,108 @@ namespace {
 
 constexpr std::size_t kTileBytes = std::size_t(32) << 20;
 
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 }  // namespace
 
-/// One pass over some of the matrices, in tiles of rows, that reports how much of it is done.
+/// One pass over some of the matrices that reports how much of it is done.
 class Archive::Loading {
  public:
-  Loading(const Archive& archive, std::size_t matrices, const Progress& progress)
-      : file_(archive.file_),
+  Loading(const Archive& archive, bool motion, bool tractions, const Progress& progress)
+      : archive_(archive),
+        file_(archive.file_),
         n_(archive.unknowns()),
         precision_(archive.precision()),
-        total_(static_cast<double>(matrices) * static_cast<double>(archive.unknowns())),
-        progress_(progress) {}
-
-  std::unique_ptr<StoredMatrix> load(const std::string& path) {
-    return precision_ == Precision::float32 ? load_dense<float>(path) : load_dense<double>(path);
+        progress_(progress) {
+    for (const FamilyPlace& place : archive.family_places())
+      if (is_traction(place) ? tractions : motion) total_ += bytes_of(place);
   }
 
-  void check_numbers(const std::string& path) {
-    check(path, precision_ == Precision::float32 ? Hdf5Type::float32 : Hdf5Type::float64);
-    std::vector<double> tile(std::min(n_, tile_rows<double>()) * n_);
-    for_each_tile<double>([&](std::size_t first, std::size_t rows) {
-      file_.read_rows(path, first, rows, tile.data());
-      if (!std::all_of(tile.begin(), tile.begin() + static_cast<std::ptrdiff_t>(rows * n_),
-                       [](double x) { return std::isfinite(x); }))
-        throw Error(ErrorCode::archive,
-                    file_.path() + ": " + path + " has a number that is not finite");
-    });
+  std::unique_ptr<MatrixFamily> load(const FamilyPlace& place) {
+    if (archive_.codec() == Codec::lowrank) return load_compressed(place, nullptr);
+    return precision_ == Precision::float32 ? load_dense<float>(place) : load_dense<double>(place);
   }
 
-  std::unique_ptr<StoredMatrix> load_columns(const std::string& path,
+  std::unique_ptr<MatrixFamily> load_columns(const FamilyPlace& place,
                                              const std::vector<int>& columns) {
-    return precision_ == Precision::float32 ? pick_columns<float>(path, columns)
-                                            : pick_columns<double>(path, columns);
+    if (archive_.codec() == Codec::lowrank) return load_compressed(place, &columns);
+    return precision_ == Precision::float32 ? pick_columns<float>(place, columns)
+                                            : pick_columns<double>(place, columns);
+  }
+
+  void check_numbers(const FamilyPlace& place) {
+    if (archive_.codec() == Codec::lowrank) {
+      load_compressed(place, nullptr);
+      return;
+    }
+    std::vector<double> tile(std::min(n_, tile_rows<double>()) * n_);
+    for (const std::string& path : place.paths) {
+      check(path, precision_ == Precision::float32 ? Hdf5Type::float32 : Hdf5Type::float64);
+      for_each_tile<double>([&](std::size_t first, std::size_t rows) {
+        file_.read_rows(path, first, rows, tile.data());
+        if (!std::all_of(tile.begin(), tile.begin() + static_cast<std::ptrdiff_t>(rows * n_),
+                         [](double x) { return std::isfinite(x); }))
+          throw Error(ErrorCode::archive,
+                      file_.path() + ": " + path + " has a number that is not finite");
+      });
+    }
   }
 
  private:
-  template <class T>
-  std::unique_ptr<StoredMatrix> load_dense(const std::string& path) {
-    check(path, hdf5_type<T>());
-    auto store = std::make_unique<DenseStore<T>>(n_, n_);
-    for_each_tile<T>([&](std::size_t first, std::size_t rows) {
-      file_.read_rows(path, first, rows, store->row(first));
-    });
-    return store;
+  static bool is_traction(const FamilyPlace& place) {
+    return place.group == lags_path("g") ||
+           place.group.find("traction_response") != std::string::npos;
+  }
+
+  double bytes_of(const FamilyPlace& place) const {
+    if (archive_.codec() == Codec::none)
+      return static_cast<double>(place.paths.size()) * static_cast<double>(n_ * n_) *
+             static_cast<double>(bytes_per_entry(precision_));
+    double bytes = 0;
+    for (const char* name : {"/analysis", "/synthesis"})
+      for (std::size_t extent : file_.dims(place.group + name))
+        bytes += static_cast<double>(extent);
+    return bytes;
+  }
+
+  std::unique_ptr<MatrixFamily> load_compressed(const FamilyPlace& place,
+                                                const std::vector<int>* columns) {
+    return read_low_rank(file_, place.group, n_, static_cast<int>(place.paths.size()), columns,
+                         [this](std::size_t bytes) { report(static_cast<double>(bytes)); });
   }
 
   template <class T>
-  std::unique_ptr<StoredMatrix> pick_columns(const std::string& path,
-                                             const std::vector<int>& columns) {
-    check(path, hdf5_type<T>());
-    auto store = std::make_unique<ColumnStore<T>>(n_, columns.size());
-    std::vector<T> tile(std::min(n_, tile_rows<T>()) * n_);
-    for_each_tile<T>([&](std::size_t first, std::size_t rows) {
-      file_.read_rows(path, first, rows, tile.data());
-      parallel_for(columns.size(), [&](std::size_t c) {
-        T* column = store->column(c) + first;
-        for (std::size_t i = 0; i < rows; ++i)
-          column[i] = tile[i * n_ + static_cast<std::size_t>(columns[c])];
+  std::unique_ptr<MatrixFamily> load_dense(const FamilyPlace& place) {
+    auto family = std::make_unique<DenseFamily<T>>(n_, static_cast<int>(place.paths.size()));
+    for (std::size_t k = 0; k < place.paths.size(); ++k) {
+      check(place.paths[k], hdf5_type<T>());
+      DenseStore<T>& store = family->matrix(static_cast<int>(k));
+      for_each_tile<T>([&](std::size_t first, std::size_t rows) {
+        file_.read_rows(place.paths[k], first, rows, store.row(first));
       });
-    });
-    return store;
+    }
+    return family;
+  }
+
+  template <class T>
+  std::unique_ptr<MatrixFamily> pick_columns(const FamilyPlace& place,
+                                             const std::vector<int>& columns) {
+    auto family =
+        std::make_unique<ColumnFamily<T>>(n_, columns, static_cast<int>(place.paths.size()));
+    std::vector<T> tile(std::min(n_, tile_rows<T>()) * n_);
+    for (std::size_t k = 0; k < place.paths.size(); ++k) {
+      check(place.paths[k], hdf5_type<T>());
+      ColumnStore<T>& store = family->matrix(static_cast<int>(k));
+      for_each_tile<T>([&](std::size_t first, std::size_t rows) {
+        file_.read_rows(place.paths[k], first, rows, tile.data());
+        parallel_for(columns.size(), [&](std::size_t c) {
+          T* column = store.column(c) + first;
+          for (std::size_t i = 0; i < rows; ++i)
+            column[i] = tile[i * n_ + static_cast<std::size_t>(columns[c])];
+        });
+      });
+    }
+    return family;
   }
 
   void check(const std::string& path, Hdf5Type type) const {
@@ -91,15 +136,20 @@ class Archive::Loading {
     for (std::size_t first = 0; first < n_; first += tile) {
       const std::size_t rows = std::min(tile, n_ - first);
       f(first, rows);
-      done_ += static_cast<double>(rows);
-      if (progress_) progress_("reading", std::min(1.0, done_ / total_));
+      report(static_cast<double>(rows * n_ * bytes_per_entry(precision_)));
     }
   }
 
+  void report(double bytes) {
+    done_ += bytes;
+    if (progress_) progress_("reading", std::min(1.0, done_ / total_));
+  }
+
+  const Archive& archive_;
   const Hdf5File& file_;
   std::size_t n_;
   Precision precision_;
-  double total_, done_ = 0;
+  double total_ = 0, done_ = 0;
   const Progress& progress_;
 };
 
@@ -115,27 +165,19 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
   BodyForce force = load_body_force();
   model.body_force = std::move(force.lags);
   model.initial_body_force = std::move(force.initial);
-  const std::size_t matrices = matrix_paths().size();
-  Loading loading(*this, tractions ? matrices : matrices / 2, progress);
-  const auto load_lags = [&](const char* name, std::vector<std::unique_ptr<StoredMatrix>>& out) {
-    for (int lag = 1; lag <= discretisation_.history_length; ++lag)
-      for (int m = 0; m < model.components(); ++m)
-        out.push_back(loading.load(lag_path(name, lag, m)));
+  model.codec = codec_;
+  Loading loading(*this, true, tractions, progress);
+  const auto load = [&](const std::string& group) -> std::unique_ptr<MatrixFamily> {
+    for (const FamilyPlace& place : family_places())
+      if (place.group == group) return loading.load(place);
+    return nullptr;
   };
-  const auto load_initial = [&](const char* name, std::vector<SpectralMatrix>& out) {
-    for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
-      SpectralMatrix matrix;
-      matrix.real = loading.load(initial_path(name, i) + "/real");
-      if (is_paired(i)) matrix.imaginary = loading.load(initial_path(name, i) + "/imaginary");
-      out.push_back(std::move(matrix));
-    }
-  };
-  load_initial("inverse", model.inverse);
-  load_lags("h", model.h);
-  if (tractions) {
-    load_initial("traction_response", model.traction_response);
-    load_lags("g", model.g);
+  for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
+    model.inverse.push_back(load(initial_path("inverse", i)));
+    if (tractions) model.traction_response.push_back(load(initial_path("traction_response", i)));
   }
+  model.h = load(lags_path("h"));
+  if (tractions) model.g = load(lags_path("g"));
   model.balance = load_balance(kBalancePath);
   model.traction_balance = load_balance(kTractionBalancePath);
   return model;
@@ -157,9 +199,8 @@ void Archive::check_matrices(const Progress& progress) const {
   for (const char* path : {kBalancePath, kTractionBalancePath})
     if (!load_balance(path).allFinite())
       refuse(std::string(path) + " has a number that is not finite");
-  const std::vector<std::string> paths = matrix_paths();
-  Loading loading(*this, paths.size(), progress);
-  for (const std::string& path : paths) loading.check_numbers(path);
+  Loading loading(*this, true, true, progress);
+  for (const FamilyPlace& place : family_places()) loading.check_numbers(place);
 }
 
 TractionData Archive::load_tractions(const std::vector<int>& nodes,
@@ -170,18 +211,38 @@ TractionData Archive::load_tractions(const std::vector<int>& nodes,
   const std::vector<int> columns = unknowns_of(nodes);
   TractionData data;
   data.nodes = nodes;
-  Loading loading(*this, matrix_paths().size() / 2, progress);
-  for (int lag = 1; lag <= discretisation_.history_length; ++lag)
-    for (std::size_t m = 0; m < lag_components(); ++m)
-      data.lags.push_back(loading.load_columns(lag_path("g", lag, static_cast<int>(m)), columns));
-  for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
-    const std::string group = initial_path("traction_response", i);
-    SpectralMatrix matrix;
-    matrix.real = loading.load_columns(group + "/real", columns);
-    if (is_paired(i)) matrix.imaginary = loading.load_columns(group + "/imaginary", columns);
-    data.response.push_back(std::move(matrix));
+  Loading loading(*this, false, true, progress);
+  for (const FamilyPlace& place : family_places()) {
+    if (place.group == lags_path("g"))
+      data.lags = loading.load_columns(place, columns);
+    else if (place.group.find("traction_response") != std::string::npos)
+      data.response.push_back(loading.load_columns(place, columns));
   }
   return data;
+}
+
+void Archive::read_matrix_rows(const std::string& path, std::size_t first, std::size_t rows,
+                               double* out) const {
+  if (codec_ == Codec::none) {
+    file_.read_rows(path, first, rows, out);
+    return;
+  }
+  for (const FamilyPlace& place : family_places()) {
+    const auto at = std::find(place.paths.begin(), place.paths.end(), path);
+    if (at == place.paths.end()) continue;
+    if (family_group_ != place.group) {
+      family_.reset();
+      family_ = Loading(*this, true, true, nullptr).load(place);
+      family_group_ = place.group;
+    }
+    std::vector<int> row_indices(rows), columns(unknowns());
+    std::iota(row_indices.begin(), row_indices.end(), static_cast<int>(first));
+    std::iota(columns.begin(), columns.end(), 0);
+    Eigen::Map<RowMajor>(out, static_cast<Eigen::Index>(rows),
+                         static_cast<Eigen::Index>(unknowns())) =
+        family_->block(static_cast<int>(at - place.paths.begin()), row_indices, columns);
+    return;
+  }
 }
 
 }  // namespace bem

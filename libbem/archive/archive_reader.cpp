@@ -41,7 +41,11 @@ void Archive::read_kind() {
 }
 
 void Archive::read_storage() {
-  require_text("codec", kArchiveCodec);
+  const std::string codec = file_.string_attribute("/", "codec");
+  if (codec == codec_name(Codec::lowrank))
+    codec_ = Codec::lowrank;
+  else
+    require_text("codec", codec_name(Codec::none));
   const std::string precision = file_.string_attribute("/", "precision");
   if (precision != "float32" && precision != "float64")
     refuse("has the unknown precision \"" + precision + "\"");
@@ -185,18 +189,23 @@ bool Archive::is_paired(std::size_t initial_component) const {
   return discretisation_.scheme.initial_components()[initial_component].paired;
 }
 
+std::vector<Archive::FamilyPlace> Archive::family_places() const {
+  std::vector<FamilyPlace> places;
+  if (kind_ == ModelKind::rigid) return places;
+  for (const char* matrix : {"inverse", "traction_response"})
+    for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i)
+      places.push_back(
+          {initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1)});
+  for (const char* matrix : {"h", "g"})
+    places.push_back({lags_path(matrix), lag_paths(matrix, discretisation_.history_length,
+                                                   static_cast<int>(lag_components()))});
+  return places;
+}
+
 std::vector<std::string> Archive::matrix_paths() const {
   std::vector<std::string> paths;
-  if (kind_ == ModelKind::rigid) return paths;
-  for (const char* matrix : {"inverse", "traction_response"})
-    for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
-      paths.push_back(initial_path(matrix, i) + "/real");
-      if (is_paired(i)) paths.push_back(initial_path(matrix, i) + "/imaginary");
-    }
-  for (const char* matrix : {"h", "g"})
-    for (int lag = 1; lag <= discretisation_.history_length; ++lag)
-      for (std::size_t m = 0; m < lag_components(); ++m)
-        paths.push_back(lag_path(matrix, lag, static_cast<int>(m)));
+  for (const FamilyPlace& place : family_places())
+    paths.insert(paths.end(), place.paths.begin(), place.paths.end());
   return paths;
 }
 

@@ -32,6 +32,8 @@ class Archive {
   const BodyGeometry& geometry() const { return geometry_; }
   const Discretisation& discretisation() const { return discretisation_; }
   double window() const { return window_; }
+  Codec codec() const { return codec_; }
+  /// Of uncompressed matrices.
   Precision precision() const { return precision_; }
   const ModelReport& report() const { return report_; }
   const Provenance& provenance() const { return provenance_; }
@@ -44,8 +46,8 @@ class Archive {
   /// The complete model, as it was given to write_archive.
   BodyModel load_all(const Progress& progress = nullptr) const;
 
-  /// Columns of the traction matrices at some nodes, in the archive's precision. Streams the
-  /// matrices, which are never in memory as a whole.
+  /// What the traction matrices have at some nodes: their columns, in the archive's precision, or
+  /// the compressed blocks that hold them. The matrices are never in memory as a whole.
   TractionData load_tractions(const std::vector<int>& nodes,
                               const Progress& progress = nullptr) const;
 
@@ -57,16 +59,22 @@ class Archive {
   /// Reads all matrices and checks their extents and that every number is finite.
   void check_matrices(const Progress& progress = nullptr) const;
 
-  /// Paths of all large matrices, [unknowns, unknowns] each, and reading of some rows of one.
+  /// Paths of all large matrices, [unknowns, unknowns] each, as an uncompressed archive has them,
+  /// and reading of some rows of one. Of a compressed archive the family of the last matrix that
+  /// was read stays in memory.
   std::vector<std::string> matrix_paths() const;
   void read_matrix_rows(const std::string& path, std::size_t first, std::size_t rows,
-                        double* out) const {
-    file_.read_rows(path, first, rows, out);
-  }
+                        double* out) const;
 
  private:
   class Loading;
 
+  /// A family of large matrices: where it is, and the paths of its matrices.
+  struct FamilyPlace {
+    std::string group;
+    std::vector<std::string> paths;
+  };
+  std::vector<FamilyPlace> family_places() const;
   [[noreturn]] void refuse(const std::string& what) const;
   void read_kind();
   void read_storage();
@@ -91,9 +99,13 @@ class Archive {
   BodyGeometry geometry_;
   Discretisation discretisation_;
   double window_ = 1;
+  Codec codec_ = Codec::none;
   Precision precision_ = Precision::float32;
   ModelReport report_;
   Provenance provenance_;
+
+  mutable std::string family_group_;  ///< of family_
+  mutable std::unique_ptr<MatrixFamily> family_;
 };
 
 }  // namespace bem

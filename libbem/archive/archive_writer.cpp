@@ -1,9 +1,11 @@
 #include "archive/archive_writer.hpp"
 
 #include "archive/archive_layout.hpp"
+#include "archive/low_rank_storage.hpp"
 #include "archive/user_block.hpp"
 #include "base/hdf5.hpp"
 #include "base/pending_file.hpp"
+#include "compress/dense_family.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -24,13 +26,30 @@ double overhead_bytes(const BodyGeometry& g, double datasets) {
   return 28 * vertices + 28 * triangles + 288 * nodes + 400 * datasets + 7000;
 }
 
+std::vector<const MatrixFamily*> large_families(const BodyModel& model) {
+  std::vector<const MatrixFamily*> families;
+  for (const auto* group : {&model.inverse, &model.traction_response})
+    for (const auto& family : *group) families.push_back(family.get());
+  for (const auto* family : {model.h.get(), model.g.get()})
+    if (family) families.push_back(family);
+  return families;
+}
+
+/// Of the tables that describe the blocks of compressed families.
+double table_bytes(const BodyModel& model) {
+  double bytes = 0;
+  for (const MatrixFamily* family : large_families(model))
+    if (const auto* compressed = dynamic_cast<const LowRankFamily*>(family))
+      for (const LowRankSlab& slab : compressed->slabs())
+        bytes += 12 + 68.0 * static_cast<double>(slab.blocks.size()) +
+                 24.0 * static_cast<double>(slab.couplings.size());
+  return bytes;
+}
+
 double matrix_bytes(const BodyModel& model) {
   double bytes = 0;
-  for (const auto* stores : {&model.h, &model.g})
-    for (const auto& store : *stores) bytes += static_cast<double>(store->bytes());
-  for (const auto* matrices : {&model.inverse, &model.traction_response})
-    for (const SpectralMatrix& m : *matrices)
-      bytes += static_cast<double>(m.real->bytes() + (m.imaginary ? m.imaginary->bytes() : 0));
+  for (const MatrixFamily* family : large_families(model))
+    bytes += static_cast<double>(family->bytes());
   for (const auto& m : model.body_force) bytes += 8.0 * static_cast<double>(m.size());
   for (const auto& m : model.initial_body_force) bytes += 16.0 * static_cast<double>(m.size());
   bytes += 8.0 * static_cast<double>(model.balance.size() + model.traction_balance.size());
@@ -149,31 +168,38 @@ class MatrixWriter {
   MatrixWriter(Hdf5File& file, double total_bytes, const Progress& progress)
       : file_(file), total_(total_bytes), progress_(progress) {}
 
-  void write(const std::string& path, const StoredMatrix& matrix) {
-    if (const auto* single = dynamic_cast<const DenseStore<float>*>(&matrix))
-      write_dense(path, *single);
-    else if (const auto* full = dynamic_cast<const DenseStore<double>*>(&matrix))
-      write_dense(path, *full);
+  /// `group` holds a compressed family; of an uncompressed one every matrix has a dataset of
+  /// paths[k].
+  void write(const std::string& group, const std::vector<std::string>& paths,
+             const MatrixFamily& family) {
+    if (const auto* single = dynamic_cast<const DenseFamily<float>*>(&family))
+      write_dense(paths, *single);
+    else if (const auto* full = dynamic_cast<const DenseFamily<double>*>(&family))
+      write_dense(paths, *full);
+    else if (const auto* compressed = dynamic_cast<const LowRankFamily*>(&family))
+      write_low_rank(file_, group, *compressed, [this](std::size_t bytes) { report(bytes); });
     else
       throw Error(ErrorCode::internal, "an archive cannot hold matrices of this codec");
   }
 
-  void write(const std::string& group, const SpectralMatrix& matrix) {
-    write(group + "/real", *matrix.real);
-    if (matrix.imaginary) write(group + "/imaginary", *matrix.imaginary);
-  }
-
  private:
   template <class T>
-  void write_dense(const std::string& path, const DenseStore<T>& store) {
-    file_.create_dataset(path, hdf5_type<T>(), {store.rows(), store.columns()});
-    const std::size_t tile = std::max<std::size_t>(1, kTileBytes / (store.columns() * sizeof(T)));
-    for (std::size_t first = 0; first < store.rows(); first += tile) {
-      const std::size_t rows = std::min(tile, store.rows() - first);
-      file_.write_rows(path, first, rows, store.row(first));
-      written_ += static_cast<double>(rows * store.columns() * sizeof(T));
-      if (progress_) progress_("writing", std::min(1.0, written_ / total_));
+  void write_dense(const std::vector<std::string>& paths, const DenseFamily<T>& family) {
+    for (int k = 0; k < family.count(); ++k) {
+      const DenseStore<T>& store = family.matrix(k);
+      file_.create_dataset(paths[k], hdf5_type<T>(), {store.rows(), store.columns()});
+      const std::size_t tile =
+          std::max<std::size_t>(1, kTileBytes / (store.columns() * sizeof(T)));
+      for (std::size_t first = 0; first < store.rows(); first += tile) {
+        const std::size_t rows = std::min(tile, store.rows() - first);
+        file_.write_rows(paths[k], first, rows, store.row(first));
+        report(rows * store.columns() * sizeof(T));
+      }
     }
+  }
+  void report(std::size_t bytes) {
+    written_ += static_cast<double>(bytes);
+    if (progress_) progress_("writing", std::min(1.0, written_ / total_));
   }
 
   Hdf5File& file_;
@@ -205,14 +231,17 @@ void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& prog
   write_body_force(file, model);
   write_small(file, kBalancePath, model.balance);
   write_small(file, kTractionBalancePath, model.traction_balance);
-  for (std::size_t i = 0; i < model.inverse.size(); ++i)
-    writer.write(initial_path("inverse", i), model.inverse[i]);
-  for (std::size_t i = 0; i < model.traction_response.size(); ++i)
-    writer.write(initial_path("traction_response", i), model.traction_response[i]);
-  for (const auto& [name, stores] : {std::pair("h", &model.h), std::pair("g", &model.g)})
-    for (int lag = 1; lag <= model.discretisation.history_length; ++lag)
-      for (int m = 0; m < model.components(); ++m)
-        writer.write(lag_path(name, lag, m), *(*stores)[model.lag_index(lag, m)]);
+  const auto write_initial = [&](const char* name,
+                                 const std::vector<std::unique_ptr<MatrixFamily>>& families) {
+    for (std::size_t i = 0; i < families.size(); ++i)
+      writer.write(initial_path(name, i), initial_paths(name, i, families[i]->count()),
+                   *families[i]);
+  };
+  write_initial("inverse", model.inverse);
+  write_initial("traction_response", model.traction_response);
+  for (const auto& [name, family] : {std::pair("h", model.h.get()), std::pair("g", model.g.get())})
+    writer.write(lags_path(name),
+                 lag_paths(name, model.discretisation.history_length, model.components()), *family);
   file.set_attribute("/matrices/h", "unit", "1");
   file.set_attribute("/matrices/g", "unit", "m/Pa");
   file.set_attribute("/matrices/inverse", "unit", "1");
@@ -223,7 +252,10 @@ void check_complete(const BodyModel& model) {
   const auto lags = static_cast<std::size_t>(model.discretisation.history_length) *
                     static_cast<std::size_t>(model.components());
   const std::size_t initial = model.discretisation.scheme.initial_components().size();
-  require(model.h.size() == lags && model.g.size() == lags && model.body_force.size() == lags &&
+  const auto is_whole = [&](const std::unique_ptr<MatrixFamily>& family) {
+    return family && family->count() == static_cast<int>(lags);
+  };
+  require(is_whole(model.h) && is_whole(model.g) && model.body_force.size() == lags &&
               model.inverse.size() == initial && model.traction_response.size() == initial &&
               model.initial_body_force.size() == initial,
           "all matrices of a model that is archived are in memory");
@@ -255,8 +287,9 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
   const bool rigid = model.kind == ModelKind::rigid;
   if (!rigid) check_complete(model);
   const double bytes =
-      matrix_bytes(model) +
-      overhead_bytes(model.geometry, static_cast<double>(model.h.size() + model.g.size()));
+      rigid ? overhead_bytes(model.geometry, 0)
+            : matrix_bytes(model) + table_bytes(model) +
+                  overhead_bytes(model.geometry, 2.0 * static_cast<double>(model.h->count()));
   check_archive_target(path, force, bytes);
   PendingFile pending(path);
   Hdf5CreateOptions options;
@@ -269,7 +302,7 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
   write_material(file, model.discretisation.material);
   write_provenance(file, provenance);
   if (!rigid) {
-    file.set_attribute("/", "codec", kArchiveCodec);
+    file.set_attribute("/", "codec", codec_name(model.codec));
     file.set_attribute("/", "precision",
                        model.precision == Precision::float32 ? "float32" : "float64");
     write_scheme(file, model);

@@ -6,7 +6,7 @@
 namespace bem {
 
 /// Version of the layout described in docs/archive-format.md.
-inline constexpr int kArchiveVersion = 1;
+inline constexpr int kArchiveVersion = 2;
 
 /// Bytes in front of the HDF5 file: a readable text, filled up with zeros.
 inline constexpr std::uint64_t kUserBlock = 4096;

@@ -110,7 +110,7 @@ FloatMatrix transposed_each(const FloatMatrix& row, Eigen::Index count) {
 
 }  // namespace
 
-BlockFactors factor_block(const std::vector<BlockView>& matrices, double least) {
+BlockFactors factor_block(const std::vector<MatrixView<float>>& matrices, double least) {
   const Eigen::Index m = matrices[0].rows(), n = matrices[0].cols();
   const auto count = static_cast<Eigen::Index>(matrices.size());
   FloatMatrix stacked(m, n * count);

@@ -1,11 +1,9 @@
 #pragma once
 
+#include "compress/family_builder.hpp"
 #include "compress/layered_matrix.hpp"
 
 namespace bem {
-
-/// Single precision matrices of one block, lag by lag: views of m x n.
-using BlockView = Eigen::Map<const FloatMatrix, 0, Eigen::OuterStride<>>;
 
 /// A block of several matrices X_k (m x n) with common bases, X_k = Q C_k P^T. The columns of Q and
 /// P are orthonormal and roughly sorted by what they carry: sigma_i^2 = sum_k |row i of C_k|^2 for
@@ -22,6 +20,6 @@ struct BlockFactors {
 /// Finds the bases from products with random vectors (Halko, Martinsson & Tropp 2011), which are
 /// the same for every block, and leaves out directions that carry less than about `least`. About
 /// m n K (p + r) multiply-adds.
-BlockFactors factor_block(const std::vector<BlockView>& matrices, double least);
+BlockFactors factor_block(const std::vector<MatrixView<float>>& matrices, double least);
 
 }  // namespace bem

@@ -18,9 +18,9 @@ struct NodeBlock {
 
 /// What decides on the blocks.
 struct PartitionOptions {
-  int leaf = 16;            ///< clusters of at most so many nodes are not divided
+  int leaf = 64;            ///< clusters of at most so many nodes are not divided
   int slab = 128;           ///< no block has more rows (nodes)
-  double admissible = 2.0;  ///< far: smaller diameter <= admissible * distance
+  double admissible = 4.0;  ///< far: smaller diameter <= admissible * distance
 };
 
 /// A range of rows that holds whole blocks.

@@ -9,7 +9,7 @@
 namespace bem {
 namespace {
 
-constexpr double kLeast = 1.0;      ///< quanta: what a direction must carry to be kept
+constexpr double kLeast = 8;         ///< quanta: what a direction must carry to be kept
 constexpr double kMost8 = 300;      ///< quanta: what a direction of 8-bit numbers carries at most
 constexpr double kMost16 = 100000;  ///< the same for 16-bit ones
 constexpr double kWorthTrying = 0.3;  ///< of all directions: from here on plain blocks are tried
@@ -48,7 +48,7 @@ LowRankBuilder::LowRankBuilder(std::vector<Slab> partition, int count, double qu
     : partition_(std::move(partition)), count_(count), quantum_(quantum) {}
 
 double LowRankBuilder::quantum_for(double tolerance, double norm, std::size_t size, int count) {
-  constexpr double kQuanta = 5;  // of an entry's share in the error; measured
+  constexpr double kQuanta = 9;  // of an entry's share in the error; measured
   return kQuanta * tolerance * norm /
          (static_cast<double>(size) * std::sqrt(static_cast<double>(count)));
 }
@@ -79,9 +79,9 @@ void LowRankBuilder::encode_with_bases(const BlockFactors& factors, Encoded& out
 }
 
 LowRankBuilder::Encoded LowRankBuilder::encode(const NodeBlock& b, int slab_begin,
-                                               const std::vector<BlockView>& matrices) const {
-  std::vector<BlockView> views;
-  for (const BlockView& m : matrices)
+                                               const std::vector<MatrixView<float>>& matrices) const {
+  std::vector<MatrixView<float>> views;
+  for (const MatrixView<float>& m : matrices)
     views.emplace_back(m.data() + 3 * b.column_begin * m.outerStride() +
                            3 * (b.row_begin - slab_begin),
                        3 * b.rows(), 3 * b.columns(), Eigen::OuterStride<>(m.outerStride()));
@@ -103,7 +103,7 @@ LowRankBuilder::Encoded LowRankBuilder::encode(const NodeBlock& b, int slab_begi
   const double most = kWorthTrying * static_cast<double>(std::min(out.block.rows(), out.block.columns()));
   if (static_cast<double>(factors.output_weights.size()) < most) return out;
   plain.block.plain = true;
-  for (const BlockView& v : views) {
+  for (const MatrixView<float>& v : views) {
     FloatMatrix entries = v / static_cast<float>(quantum_);
     plain.couplings.push_back(fit_layers(entries));
     store_layers(plain.couplings.back(), entries, plain.synthesis);
@@ -112,7 +112,7 @@ LowRankBuilder::Encoded LowRankBuilder::encode(const NodeBlock& b, int slab_begi
   return plain.bytes() <= out.bytes() ? plain : out;
 }
 
-void LowRankBuilder::add_slab(const std::vector<BlockView>& matrices) {
+void LowRankBuilder::add_rows(const std::vector<MatrixView<float>>& matrices) {
   require(slabs_.size() < partition_.size() && static_cast<int>(matrices.size()) == count_,
           "a slab has its rows of every matrix");
   const Slab& slab = partition_[slabs_.size()];
@@ -141,7 +141,7 @@ double LowRankBuilder::error() const {
   return std::sqrt(squared_error_);
 }
 
-std::unique_ptr<LowRankFamily> LowRankBuilder::finish() {
+std::unique_ptr<MatrixFamily> LowRankBuilder::finish() {
   require(slabs_.size() == partition_.size(), "all slabs have been added");
   return std::make_unique<LowRankFamily>(3 * static_cast<std::size_t>(partition_.back().row_end),
                                          count_, quantum_, std::move(slabs_));

@@ -8,7 +8,7 @@ namespace bem {
 
 /// Compresses the matrices of a family slab by slab: of each only the rows of one slab need be
 /// there at a time. Bit-identical for any number of threads.
-class LowRankBuilder {
+class LowRankBuilder : public FamilyBuilder<float> {
  public:
   /// `partition`: of nodes, each of which has three unknowns. `quantum`: see quantum_for().
   LowRankBuilder(std::vector<Slab> partition, int count, double quantum);
@@ -18,18 +18,15 @@ class LowRankBuilder {
   /// comes to about `tolerance` * `norm`, with `norm` the Frobenius norm of all its matrices.
   static double quantum_for(double tolerance, double norm, std::size_t size, int count);
 
-  /// The next slab: rows of all matrices, (rows of the slab) x size each, column-major. Uses all
-  /// worker threads.
-  void add_slab(const std::vector<BlockView>& matrices);
-
-  /// Frobenius norm of the errors so far.
-  double error() const;
-  std::unique_ptr<LowRankFamily> finish();
+  /// The rows of the next slab.
+  void add_rows(const std::vector<MatrixView<float>>& matrices) override;
+  std::unique_ptr<MatrixFamily> finish() override;
+  double error() const override;
 
  private:
   struct Encoded;
   Encoded encode(const NodeBlock& block, int slab_begin,
-                 const std::vector<BlockView>& matrices) const;
+                 const std::vector<MatrixView<float>>& matrices) const;
   void encode_with_bases(const BlockFactors& factors, Encoded& out) const;
 
   std::vector<Slab> partition_;

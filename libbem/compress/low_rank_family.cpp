@@ -1,5 +1,6 @@
 #include "compress/low_rank_family.hpp"
 
+#include "algebra/blas.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 
@@ -20,19 +21,20 @@ FloatMatrix load_all(const Layers& layers, const std::uint8_t* data, int rows, i
   return out;
 }
 
+/// c += a b.
+void add_product(Eigen::Ref<const FloatMatrix> a, Eigen::Ref<const FloatMatrix> b,
+                 Eigen::Ref<FloatMatrix> c) {
+  gemm<float>(static_cast<int>(a.rows()), static_cast<int>(b.cols()), static_cast<int>(a.cols()),
+              1.0F, a.data(), static_cast<int>(a.outerStride()), b.data(),
+              static_cast<int>(b.outerStride()), c.data(), static_cast<int>(c.outerStride()));
+}
+
 /// Positions of those of the indices that are in [begin, end).
 std::vector<int> positions_in(const std::vector<int>& indices, int begin, int end) {
   std::vector<int> out;
   for (std::size_t i = 0; i < indices.size(); ++i)
     if (indices[i] >= begin && indices[i] < end) out.push_back(static_cast<int>(i));
   return out;
-}
-
-template <class Term>
-std::vector<Term> by_matrix(std::vector<Term> terms) {
-  std::stable_sort(terms.begin(), terms.end(),
-                   [](const Term& a, const Term& b) { return a.matrix < b.matrix; });
-  return terms;
 }
 
 }  // namespace
@@ -81,23 +83,21 @@ std::size_t LowRankFamily::bytes() const {
   return sum;
 }
 
-void LowRankFamily::analyse(const double* x, double* analysed) const {
-  std::copy_n(x, size_, analysed);
+void LowRankFamily::analyse(const double* x, float* coefficients) const {
   const FloatVector single =
       Eigen::Map<const Eigen::VectorXd>(x, static_cast<Eigen::Index>(size_)).cast<float>();
   parallel_for(slabs_.size(), [&](std::size_t s) {
     const LowRankSlab& slab = slabs_[s];
-    FloatVector coefficients;
     for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
       const LowRankBlock& block = slab.blocks[b];
       if (block.plain) continue;
       const Place& p = places_[s][b];
-      coefficients.setZero(block.input_rank());
+      float* out = coefficients + p.coefficients;
+      std::fill_n(out, block.input_rank(), 0.0F);
       multiply_layers(block.input_basis, slab.analysis.data() + p.analysis,
-                      single.data() + block.column_begin, coefficients.data());
-      for (Eigen::Index i = 0; i < coefficients.size(); ++i)
-        analysed[size_ + p.coefficients + i] =
-            coefficients[i] * slab.input_scales[p.input_scales + i];
+                      single.data() + block.column_begin, out);
+      for (int i = 0; i < block.input_rank(); ++i)
+        out[i] *= slab.input_scales[p.input_scales + i];
     }
   });
 }
@@ -171,20 +171,24 @@ class LowRankFamily::SlabProduct {
 
 void LowRankFamily::multiply_add(const std::vector<FamilyTerm>& unsorted,
                                  const std::vector<double*>& outputs) const {
-  const std::vector<FamilyTerm> terms = by_matrix(unsorted);
+  const std::vector<FamilyTerm> terms = sorted_by_matrix(unsorted);
   if (terms.empty()) return;
   parallel_for(slabs_.size(), [&](std::size_t s) {
     const LowRankSlab& slab = slabs_[s];
     SlabProduct product(*this, s, outputs.size());
     for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
       const LowRankBlock& block = slab.blocks[b];
-      const std::size_t first =
-          block.plain ? static_cast<std::size_t>(block.column_begin)
-                      : size_ + places_[s][b].coefficients;
       product.begin(b);
       for (const FamilyTerm& t : terms) {
         if (slab.couplings[b * count_ + t.matrix].stored_rows() == 0) continue;
-        std::copy_n(t.input + first, block.input_rank(), product.input());
+        const auto factor = static_cast<float>(t.factor);
+        float* input = product.input();
+        if (block.plain)
+          for (int i = 0; i < block.columns(); ++i)
+            input[i] = factor * static_cast<float>(t.input[block.column_begin + i]);
+        else
+          for (int i = 0; i < block.input_rank(); ++i)
+            input[i] = factor * t.coefficients[places_[s][b].coefficients + i];
         product.multiply(t.matrix, t.output);
       }
       product.end();
@@ -195,7 +199,7 @@ void LowRankFamily::multiply_add(const std::vector<FamilyTerm>& unsorted,
 
 void LowRankFamily::multiply_add(const std::vector<SparseTerm>& unsorted,
                                  const std::vector<double*>& outputs) const {
-  const std::vector<SparseTerm> terms = by_matrix(unsorted);
+  const std::vector<SparseTerm> terms = sorted_by_matrix(unsorted);
   if (terms.empty()) return;
   parallel_for(slabs_.size(), [&](std::size_t s) {
     const LowRankSlab& slab = slabs_[s];
@@ -213,7 +217,7 @@ void LowRankFamily::multiply_add(const std::vector<SparseTerm>& unsorted,
         float* input = product.input();
         std::fill_n(input, block.input_rank(), 0.0F);
         for (auto c = first; c != last; ++c) {
-          const auto value = static_cast<float>(t.values[c - columns.begin()]);
+          const auto value = static_cast<float>(t.factor * t.values[c - columns.begin()]);
           const int j = *c - block.column_begin;
           if (block.plain) {
             input[j] += value;
@@ -235,7 +239,7 @@ void LowRankFamily::multiply_add(const std::vector<SparseTerm>& unsorted,
 
 void LowRankFamily::multiply_transposed_add(const std::vector<FamilyTerm>& unsorted,
                                             const std::vector<double*>& outputs) const {
-  const std::vector<FamilyTerm> terms = by_matrix(unsorted);
+  const std::vector<FamilyTerm> terms = sorted_by_matrix(unsorted);
   const auto size = static_cast<Eigen::Index>(size_);
   std::vector<FloatMatrix> sums(slabs_.size());
   parallel_for(slabs_.size(), [&](std::size_t s) {
@@ -260,7 +264,7 @@ void LowRankFamily::multiply_transposed_add(const std::vector<FamilyTerm>& unsor
                               block.output_rank(), block.input_rank());
         loaded = t.matrix;
         const FloatVector x =
-            Eigen::Map<const Eigen::VectorXd>(t.input + block.row_begin, block.rows())
+            (t.factor * Eigen::Map<const Eigen::VectorXd>(t.input + block.row_begin, block.rows()))
                 .cast<float>();
         const FloatVector y = block.plain ? x : FloatVector(synthesis.transpose() * x);
         coefficients.col(t.output).noalias() += coupling.transpose() * y;
@@ -285,6 +289,84 @@ void LowRankFamily::multiply_transposed_add(const std::vector<FamilyTerm>& unsor
     for (std::size_t o = 0; o < outputs.size(); ++o)
       Eigen::Map<Eigen::VectorXd>(outputs[o], size) +=
           part.col(static_cast<Eigen::Index>(o)).cast<double>();
+}
+
+FloatMatrix LowRankFamily::multiply_left(const FloatMatrix& x, int matrix) const {
+  constexpr Eigen::Index kTileRows = 128;  // a decoded block serves all of them
+  FloatMatrix out(x.rows(), x.cols());
+  parallel_for((x.rows() + kTileRows - 1) / kTileRows, [&](std::size_t tile) {
+    const Eigen::Index first = static_cast<Eigen::Index>(tile) * kTileRows;
+    const FloatMatrix rows = x.middleRows(first, std::min(kTileRows, x.rows() - first));
+    FloatMatrix sums = FloatMatrix::Zero(rows.rows(), rows.cols());
+    for (std::size_t s = 0; s < slabs_.size(); ++s) {
+      const LowRankSlab& slab = slabs_[s];
+      for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
+        const LowRankBlock& k = slab.blocks[b];
+        const Place& p = places_[s][b];
+        const Layers& layers = slab.couplings[b * count_ + matrix];
+        if (layers.stored_rows() == 0) continue;
+        FloatMatrix coupling = load_all(layers, slab.synthesis.data() + p.couplings[matrix],
+                                        k.output_rank(), k.input_rank());
+        coupling *= static_cast<float>(quantum_);
+        const auto in = rows.middleCols(k.row_begin, k.rows());
+        auto to = sums.middleCols(k.column_begin, k.columns());
+        if (k.plain) {
+          add_product(in, coupling, to);
+          continue;
+        }
+        const Eigen::Map<const FloatVector> outputs(slab.output_scales.data() + p.output_scales,
+                                                    k.output_rank());
+        const Eigen::Map<const FloatVector> inputs(slab.input_scales.data() + p.input_scales,
+                                                   k.input_rank());
+        coupling = outputs.asDiagonal() * coupling * inputs.asDiagonal();
+        FloatMatrix expanded = FloatMatrix::Zero(rows.rows(), k.output_rank());
+        add_product(in,
+                    load_all(k.output_basis, slab.synthesis.data() + p.output_basis, k.rows(),
+                             k.output_rank()),
+                    expanded);
+        FloatMatrix coupled = FloatMatrix::Zero(rows.rows(), k.input_rank());
+        add_product(expanded, coupling, coupled);
+        add_product(coupled,
+                    load_all(k.input_basis, slab.analysis.data() + p.analysis, k.input_rank(),
+                             k.columns()),
+                    to);
+      }
+    }
+    out.middleRows(first, rows.rows()) = sums;
+  });
+  return out;
+}
+
+std::unique_ptr<MatrixFamily> LowRankFamily::combine(
+    const std::vector<std::vector<double>>& weights) const {
+  std::vector<LowRankSlab> slabs(slabs_.size());
+  parallel_for(slabs_.size(), [&](std::size_t s) {
+    const LowRankSlab& from = slabs_[s];
+    LowRankSlab& to = slabs[s];
+    to = from;
+    to.couplings.clear();
+    to.synthesis.clear();
+    for (std::size_t b = 0; b < from.blocks.size(); ++b) {
+      const LowRankBlock& block = from.blocks[b];
+      const Place& p = places_[s][b];
+      for (const std::vector<double>& w : weights) {
+        FloatMatrix sum = FloatMatrix::Zero(block.output_rank(), block.input_rank());
+        for (int k = 0; k < count_; ++k)
+          if (w[k] != 0)
+            sum += static_cast<float>(w[k]) *
+                   load_all(from.couplings[b * count_ + k],
+                            from.synthesis.data() + p.couplings[k], block.output_rank(),
+                            block.input_rank());
+        to.couplings.push_back(fit_layers(sum));
+        store_layers(to.couplings.back(), sum, to.synthesis);
+      }
+      const std::uint8_t* basis = from.synthesis.data() + p.output_basis;
+      if (!block.plain)
+        to.synthesis.insert(to.synthesis.end(), basis, basis + block.output_basis.bytes());
+    }
+  });
+  return std::make_unique<LowRankFamily>(size_, static_cast<int>(weights.size()), quantum_,
+                                         std::move(slabs));
 }
 
 Eigen::MatrixXd LowRankFamily::block(int matrix, const std::vector<int>& rows,

@@ -47,17 +47,22 @@ class LowRankFamily : public MatrixFamily {
   int count() const override { return count_; }
   std::size_t bytes() const override;
 
-  /// The vector itself and, behind it, its coefficients in the blocks' input bases.
-  std::size_t analysed_size() const override { return size_ + coefficients_; }
-  void analyse(const double* x, double* analysed) const override;
+  /// Coefficients in the blocks' input bases, block by block.
+  std::size_t coefficients() const override { return coefficients_; }
+  void analyse(const double* x, float* coefficients) const override;
   void multiply_add(const std::vector<FamilyTerm>& terms,
                     const std::vector<double*>& outputs) const override;
   void multiply_add(const std::vector<SparseTerm>& terms,
                     const std::vector<double*>& outputs) const override;
   void multiply_transposed_add(const std::vector<FamilyTerm>& terms,
                                const std::vector<double*>& outputs) const override;
+  std::unique_ptr<MatrixFamily> combine(
+      const std::vector<std::vector<double>>& weights) const override;
   Eigen::MatrixXd block(int matrix, const std::vector<int>& rows,
                         const std::vector<int>& columns) const override;
+
+  /// X A_matrix for many rows at once, in single precision: p x size.
+  FloatMatrix multiply_left(const FloatMatrix& x, int matrix) const;
 
   double quantum() const { return quantum_; }
   const std::vector<LowRankSlab>& slabs() const { return slabs_; }

@@ -14,19 +14,22 @@ inline std::size_t bytes_per_entry(Precision p) {
   return p == Precision::float32 ? 4 : 8;
 }
 
-/// One product of a sum: outputs[output] += matrix * input.
+/// One product of a sum: outputs[output] += factor * matrix * input.
 struct FamilyTerm {
   int matrix = 0;
   const double* input = nullptr;
+  const float* coefficients = nullptr;  ///< of the input, from MatrixFamily::analyse
   int output = 0;
+  double factor = 1;
 };
 
-/// A product with a vector that has few entries, [column] -> value.
+/// The same for a vector with few entries.
 struct SparseTerm {
   int matrix = 0;
-  const std::vector<int>* columns = nullptr;  ///< ascending
+  const std::vector<int>* columns = nullptr;  ///< of the entries, ascending
   const double* values = nullptr;
   int output = 0;
+  double factor = 1;
 };
 
 /// Real matrices of the same size that belong together (all lags and components of H, or the real
@@ -42,25 +45,35 @@ class MatrixFamily {
   /// Of the stored values: what a product with every matrix reads.
   virtual std::size_t bytes() const = 0;
 
-  /// A vector is analysed once, and what comes of it is multiplied as often as needed (a
-  /// displacement by the matrix of another lag in every step). Linear. `analysed` has
-  /// analysed_size() entries.
-  virtual std::size_t analysed_size() const = 0;
-  virtual void analyse(const double* x, double* analysed) const = 0;
+  /// A vector is analysed once and multiplied as often as needed (a displacement by the matrix of
+  /// another lag in every step): what a codec wants to know of it besides its entries. Linear.
+  virtual std::size_t coefficients() const { return 0; }
+  virtual void analyse(const double* /*x*/, float* /*coefficients*/) const {}
 
-  /// For all terms, whose inputs are analysed: outputs[t.output] += A_{t.matrix} t.input.
+  /// outputs[t.output] += t.factor A_{t.matrix} t.input for all terms.
   virtual void multiply_add(const std::vector<FamilyTerm>& terms,
                             const std::vector<double*>& outputs) const = 0;
   /// The same for vectors with few entries; parts of the matrices that meet none are not read.
   virtual void multiply_add(const std::vector<SparseTerm>& terms,
                             const std::vector<double*>& outputs) const = 0;
-  /// For all terms, whose inputs are plain: outputs[t.output] += A_{t.matrix}^T t.input.
+  /// outputs[t.output] += t.factor A_{t.matrix}^T t.input for all terms; no coefficients.
   virtual void multiply_transposed_add(const std::vector<FamilyTerm>& terms,
                                        const std::vector<double*>& outputs) const = 0;
+
+  /// The family of the sums B_j = sum_k weights[j][k] A_k.
+  virtual std::unique_ptr<MatrixFamily> combine(
+      const std::vector<std::vector<double>>& weights) const = 0;
 
   /// Entries at the crossings of some rows and columns.
   virtual Eigen::MatrixXd block(int matrix, const std::vector<int>& rows,
                                 const std::vector<int>& columns) const = 0;
 };
+
+/// Terms in the order of their matrices.
+template <class Term>
+std::vector<Term> sorted_by_matrix(std::vector<Term> terms);
+
+/// A whole matrix, for tests and comparisons.
+Eigen::MatrixXd full_matrix(const MatrixFamily& family, int matrix);
 
 }  // namespace bem

@@ -15,13 +15,6 @@ Eigen::MatrixXd rigid_columns(const std::vector<Vec3>& x, const std::vector<int>
   return m;
 }
 
-std::vector<int> slots_of(const NodalTractions& tractions, const std::vector<int>& nodes) {
-  std::vector<int> slots;
-  slots.reserve(nodes.size());
-  for (int node : nodes) slots.push_back(tractions.slot(node));
-  return slots;
-}
-
 }  // namespace
 
 ElasticPart::ElasticPart(const ElasticSystem& system, const NodalTractions* tractions,
@@ -31,8 +24,7 @@ ElasticPart::ElasticPart(const ElasticSystem& system, const NodalTractions* trac
       areas_(vertex_areas(system.model().geometry.nodes)),
       joint_nodes_(std::move(joint_nodes)),
       offset_(system.scheme(), system.model().discretisation.dt) {
-  const auto n = static_cast<Eigen::Index>(3 * system.model().nodes());
-  displacement_history_ = system.make_history(n);
+  displacement_history_ = system.make_displacement_history();
   acceleration_history_ = system.make_history(6);
   traction_history_ = NodalHistory(system.scheme(), system.model().discretisation.history_length,
                                    system.model().window);
@@ -91,21 +83,20 @@ Eigen::MatrixXd ElasticPart::response(const std::vector<int>& rows, int row_stag
                                       const std::vector<int>& columns,
                                       const StageVector& pattern) const {
   const auto& initial = system_.scheme().initial_components();
-  const std::vector<int> slots = slots_of(*tractions_, columns);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * rows.size(), 3 * columns.size());
   Eigen::MatrixXd offset = Eigen::MatrixXd::Zero(6, out.cols());
   for (std::size_t c = 0; c < initial.size(); ++c) {
     const Complex factor = initial[c].multiplicity() *
                            (initial[c].right.transpose() * pattern.cast<Complex>()).value();
     out += (initial[c].left[row_stage] * factor *
-            tractions_->response(static_cast<int>(c), rows, slots))
+            tractions_->response(static_cast<int>(c), rows, columns))
                .real();
-    const Eigen::MatrixXcd z = tractions_->acceleration(static_cast<int>(c), slots);
+    const Eigen::MatrixXcd z = tractions_->acceleration(static_cast<int>(c), columns);
     for (int k = 0; k < pattern.size(); ++k)
       offset -= offset_.gain()(row_stage, k) * (initial[c].left[k] * factor * z).real();
   }
   offset -=
-      (offset_.gain().row(row_stage) * pattern).value() * tractions_->balanced_acceleration(slots);
+      (offset_.gain().row(row_stage) * pattern).value() * tractions_->balanced_acceleration(columns);
   out.noalias() += rigid_columns(system_.model().geometry.nodes.vertices, rows) * offset;
   for (std::size_t j = 0; j < columns.size(); ++j)
     out.middleCols<3>(static_cast<Eigen::Index>(3 * j)) /= areas_[columns[j]];
@@ -182,7 +173,7 @@ NodalLoad ElasticPart::nodal_load(const NodalForces& forces) const {
   };
   add(joint_nodes_, forces.joint);
   add(contact_nodes_, forces.contact.replicate(1, stages));
-  if (!nodes.empty()) load.slots = slots_of(*tractions_, nodes);
+  load.nodes = std::move(nodes);
   return load;
 }
 

@@ -1,18 +1,14 @@
 #pragma once
 
 #include "assembly/row_assembler.hpp"
-#include "compress/stored_matrix.hpp"
+#include "compress/codec.hpp"
+#include "compress/matrix_family.hpp"
 #include "model/geometry.hpp"
 
 #include <memory>
 #include <string>
 
 namespace bem {
-
-/// A complex matrix, or a real one without imaginary part.
-struct SpectralMatrix {
-  std::unique_ptr<StoredMatrix> real, imaginary;
-};
 
 /// What is measured while the matrices are made; stored in the archive and shown by --info.
 struct ModelReport {
@@ -28,21 +24,23 @@ enum class ModelKind {
   rigid     ///< geometry and mass alone
 };
 
-/// Everything that is precomputed for one body. Matrices are numbered as in LaneLayout and Scheme:
-/// h[(lag-1)*components + m] for lags 1..history_length, one entry per initial component for lag 0.
-/// Unknowns are ordered as 3*node + axis.
+/// Everything that is precomputed for one body. Lag matrices are numbered as in LaneLayout and
+/// Scheme, (lag-1)*components + m for lags 1..history_length; of lag 0 there is one family per
+/// initial component: its real part and, where it is complex, its imaginary part. Unknowns are
+/// ordered as 3*node + axis.
 struct BodyModel {
   ModelKind kind = ModelKind::dynamic;
   BodyGeometry geometry;
   Discretisation discretisation;
   double window = 1;  ///< factor per lag on all weights, see docs/method.md
-  Precision precision = Precision::float32;
+  Codec codec = Codec::none;
+  Precision precision = Precision::float32;  ///< of uncompressed matrices
 
-  std::vector<std::unique_ptr<StoredMatrix>> h, g;   ///< 3N x 3N, lags >= 1
+  std::unique_ptr<MatrixFamily> h, g;                ///< 3N x 3N, lags >= 1
   std::vector<Eigen::MatrixXd> body_force;           ///< [D_k Q_k], 3N x 6, lags >= 1
   std::vector<Eigen::MatrixXcd> initial_body_force;  ///< [D_0 Q_0] by initial component, 3N x 6
-  std::vector<SpectralMatrix> inverse;               ///< H_0^{-1} by initial component
-  std::vector<SpectralMatrix> traction_response;     ///< H_0^{-1} G_0 by initial component
+  std::vector<std::unique_ptr<MatrixFamily>> inverse;            ///< H_0^{-1}
+  std::vector<std::unique_ptr<MatrixFamily>> traction_response;  ///< H_0^{-1} G_0
   /// The static equation H(0) u = b + D(0) a' + Q(0) alpha can be solved for u only with the
   /// accelerations (a', alpha) = balance * b: the discrete form of force = mass x acceleration.
   Eigen::MatrixXd balance;           ///< 6 x 3N

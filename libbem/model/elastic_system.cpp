@@ -11,18 +11,24 @@ Eigen::MatrixXd lag_inputs(const Scheme& scheme) {
   return right;
 }
 
-LagHistory::LagHistory(const Scheme& scheme, Eigen::Index inputs, int history_length, double window)
+LagHistory::LagHistory(const Scheme& scheme, Eigen::Index inputs, int history_length, double window,
+                       const MatrixFamily* family)
     : right_(lag_inputs(scheme)),
       window_(window),
+      family_(family),
       ring_(history_length, Eigen::MatrixXd::Zero(inputs, right_.cols())),
+      coefficients_(history_length,
+                    Eigen::MatrixXf::Zero(
+                        family ? static_cast<Eigen::Index>(family->coefficients()) : 0,
+                        right_.cols())),
       zero_(history_length, 1) {}
 
 void LagHistory::push(const Eigen::MatrixXd& stages) {
   newest_ = (newest_ + ring_.size() - 1) % ring_.size();
   ring_[newest_].noalias() = stages * right_;
   zero_[newest_] = stages.isZero(0);
-  if (window_ != 1)
-    for (Eigen::MatrixXd& values : ring_) values *= window_;
+  for (Eigen::Index m = 0; family_ && m < right_.cols(); ++m)
+    family_->analyse(ring_[newest_].col(m).data(), coefficients_[newest_].col(m).data());
 }
 
 ElasticSystem::ElasticSystem(const BodyModel& model, double window)
@@ -39,25 +45,26 @@ LagHistory ElasticSystem::make_history(Eigen::Index inputs) const {
   return LagHistory(scheme(), inputs, model_.discretisation.history_length, window_);
 }
 
+LagHistory ElasticSystem::make_displacement_history() const {
+  return LagHistory(scheme(), static_cast<Eigen::Index>(3 * model_.nodes()),
+                    model_.discretisation.history_length, window_, model_.h.get());
+}
+
 void ElasticSystem::subtract_displacement_history(
     const std::vector<const LagHistory*>& u, std::vector<Eigen::MatrixXd>& component_sums) const {
-  const Eigen::Index n = component_sums[0].rows();
   const int components = model_.components();
-  Eigen::MatrixXd inputs(n, static_cast<Eigen::Index>(u.size()));
-  Eigen::MatrixXd product(n, inputs.cols());
-  for (int k = 1; k <= u[0]->length(); ++k) {
-    std::vector<Eigen::Index> moving;  // bodies with anything to multiply at this lag
-    for (std::size_t b = 0; b < u.size(); ++b)
-      if (!u[b]->is_zero(k)) moving.push_back(static_cast<Eigen::Index>(b));
-    const auto count = static_cast<Eigen::Index>(moving.size());
-    for (int m = 0; m < components && count > 0; ++m) {
-      for (Eigen::Index c = 0; c < count; ++c) inputs.col(c) = u[moving[c]]->lag(k).col(m);
-      product.setZero();
-      model_.h[model_.lag_index(k, m)]->multiply_add(inputs.data(), product.data(),
-                                                     static_cast<int>(count));
-      for (Eigen::Index c = 0; c < count; ++c) component_sums[moving[c]].col(m) -= product.col(c);
+  std::vector<FamilyTerm> terms;
+  std::vector<double*> outputs;
+  for (std::size_t b = 0; b < u.size(); ++b)
+    for (int m = 0; m < components; ++m) {
+      for (int k = 1; k <= u[b]->length(); ++k)
+        if (!u[b]->is_zero(k))
+          terms.push_back({model_.lag_index(k, m), u[b]->lag(k).col(m).data(),
+                           u[b]->coefficients(k).col(m).data(), static_cast<int>(outputs.size()),
+                           -u[b]->factor(k)});
+      outputs.push_back(component_sums[b].col(m).data());
     }
-  }
+  model_.h->multiply_add(terms, outputs);
 }
 
 void ElasticSystem::add_input_history(const InputColumns& columns, const LagHistory& inputs,
@@ -66,29 +73,44 @@ void ElasticSystem::add_input_history(const InputColumns& columns, const LagHist
     if (inputs.is_zero(k)) continue;
     for (int m = 0; m < model_.components(); ++m)
       component_sums.col(m).noalias() +=
-          columns.lags[model_.lag_index(k, m)] * inputs.lag(k).col(m);
+          columns.lags[model_.lag_index(k, m)] * (inputs.factor(k) * inputs.lag(k).col(m));
   }
 }
 
-Eigen::MatrixXcd ElasticSystem::apply_inverse(int component, const Eigen::MatrixXcd& v) const {
-  const SpectralMatrix& inverse = model_.inverse[component];
+namespace {
+
+/// A family of real and imaginary part, or of a real part alone, times complex vectors.
+Eigen::MatrixXcd multiply_complex(const MatrixFamily& family, const Eigen::MatrixXcd& v) {
   const Eigen::Index n = v.rows(), count = v.cols();
-  // real and imaginary parts of the vectors side by side: each matrix is read once
-  Eigen::MatrixXd parts(n, 2 * count);
-  parts << v.real(), v.imag();
-  const int vectors = static_cast<int>(inverse.imaginary ? 2 * count : count);
-  Eigen::MatrixXd by_real = Eigen::MatrixXd::Zero(n, 2 * count);
-  inverse.real->multiply_add(parts.data(), by_real.data(), vectors);
-  Eigen::MatrixXcd out(n, count);
-  if (!inverse.imaginary) {
-    out = by_real.leftCols(count).cast<Complex>();
-    return out;
+  const auto coefficients = static_cast<Eigen::Index>(family.coefficients());
+  Eigen::MatrixXd inputs(n, 2 * count), outputs = Eigen::MatrixXd::Zero(n, 2 * count);
+  inputs << v.real(), v.imag();
+  Eigen::MatrixXf analysed(coefficients, 2 * count);
+  std::vector<FamilyTerm> terms;
+  std::vector<double*> out;
+  const bool complex = family.count() > 1;
+  for (Eigen::Index c = 0; c < 2 * count; ++c) {
+    out.push_back(outputs.col(c).data());
+    const bool imaginary = c >= count;
+    if (imaginary && !complex && inputs.col(c).isZero(0)) continue;
+    family.analyse(inputs.col(c).data(), analysed.col(c).data());
+    const int real_output = static_cast<int>(c);
+    terms.push_back({0, inputs.col(c).data(), analysed.col(c).data(), real_output, 1});
+    if (complex)
+      terms.push_back({1, inputs.col(c).data(), analysed.col(c).data(),
+                       static_cast<int>(imaginary ? c - count : c + count), imaginary ? -1.0 : 1.0});
   }
-  Eigen::MatrixXd by_imaginary = Eigen::MatrixXd::Zero(n, 2 * count);
-  inverse.imaginary->multiply_add(parts.data(), by_imaginary.data(), vectors);
-  out.real() = by_real.leftCols(count) - by_imaginary.rightCols(count);
-  out.imag() = by_real.rightCols(count) + by_imaginary.leftCols(count);
-  return out;
+  family.multiply_add(terms, out);
+  Eigen::MatrixXcd product(n, count);
+  product.real() = outputs.leftCols(count);
+  product.imag() = outputs.rightCols(count);
+  return product;
+}
+
+}  // namespace
+
+Eigen::MatrixXcd ElasticSystem::apply_inverse(int component, const Eigen::MatrixXcd& v) const {
+  return multiply_complex(*model_.inverse[component], v);
 }
 
 std::vector<SpectralState> ElasticSystem::solve(

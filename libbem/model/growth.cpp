@@ -24,7 +24,7 @@ class FreeRecursion {
 
   Eigen::VectorXd apply(const Eigen::VectorXd& state) const {
     const Scheme& scheme = system_.scheme();
-    LagHistory u(scheme, unknowns_, length_, 1), a(scheme, 6, length_, 1);
+    LagHistory u = system_.make_displacement_history(), a = system_.make_history(6);
     for (int k = length_; k >= 1; --k) {
       const double* step = state.data() + (k - 1) * step_size();
       u.push(Eigen::Map<const Eigen::MatrixXd>(step, unknowns_, stages_));

@@ -1,19 +1,27 @@
 #include "model/nodal_tractions.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
+#include "compress/dense_family.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace bem {
 namespace {
 
+/// Some columns of an uncompressed family, in the precision of the model.
 template <class T>
-std::unique_ptr<StoredMatrix> column_store(const Eigen::MatrixXd& columns) {
-  auto store = std::make_unique<ColumnStore<T>>(columns.rows(), columns.cols());
-  std::transform(columns.data(), columns.data() + columns.size(), store->column(0),
-                 [](double x) { return static_cast<T>(x); });
-  return store;
+std::shared_ptr<const MatrixFamily> pick_columns(const MatrixFamily& family,
+                                                 const std::vector<int>& columns) {
+  std::vector<int> rows(family.rows());
+  std::iota(rows.begin(), rows.end(), 0);
+  auto out = std::make_shared<ColumnFamily<T>>(family.rows(), columns, family.count());
+  for (int k = 0; k < family.count(); ++k) {
+    const Eigen::MatrixXd entries = family.block(k, rows, columns);
+    std::transform(entries.data(), entries.data() + entries.size(), out->matrix(k).column(0),
+                   [](double x) { return static_cast<T>(x); });
+  }
+  return out;
 }
 
 }  // namespace
@@ -26,23 +34,21 @@ std::vector<int> unknowns_of(const std::vector<int>& nodes) {
   return unknowns;
 }
 
-TractionData extract_tractions(const BodyModel& model, const std::vector<int>& nodes) {
-  require(!model.g.empty() && !model.traction_response.empty(), "traction matrices are in memory");
-  const std::vector<int> unknowns = unknowns_of(nodes);
-  const auto pick = [&](const StoredMatrix& m) {
-    const Eigen::MatrixXd columns = m.extract_columns(unknowns);
-    return model.precision == Precision::float32 ? column_store<float>(columns)
-                                                 : column_store<double>(columns);
+TractionData extract_tractions(std::shared_ptr<const BodyModel> model,
+                               const std::vector<int>& nodes) {
+  require(model->g && !model->traction_response.empty(), "traction matrices are in memory");
+  const std::vector<int> columns = unknowns_of(nodes);
+  const auto pick = [&](const MatrixFamily& family) -> std::shared_ptr<const MatrixFamily> {
+    if (dynamic_cast<const DenseFamily<float>*>(&family))
+      return pick_columns<float>(family, columns);
+    if (dynamic_cast<const DenseFamily<double>*>(&family))
+      return pick_columns<double>(family, columns);
+    return {model, &family};  // compressed ones are used as a whole
   };
   TractionData data;
   data.nodes = nodes;
-  for (const auto& g : model.g) data.lags.push_back(pick(*g));
-  for (const SpectralMatrix& m : model.traction_response) {
-    SpectralMatrix picked;
-    picked.real = pick(*m.real);
-    if (m.imaginary) picked.imaginary = pick(*m.imaginary);
-    data.response.push_back(std::move(picked));
-  }
+  data.lags = pick(*model->g);
+  for (const auto& m : model->traction_response) data.response.push_back(pick(*m));
   return data;
 }
 
@@ -55,75 +61,73 @@ void NodalHistory::push(const NodalLoad& load) {
   if (load.stages.isZero(0)) {
     lag = {};
   } else {
-    lag.columns = unknowns_of(load.slots);
+    lag.columns = unknowns_of(load.nodes);
     lag.inputs.noalias() = load.stages * right_;
   }
-  if (window_ != 1)
-    for (Lag& l : ring_) l.inputs *= window_;
 }
 
 NodalTractions::NodalTractions(const ElasticSystem& system, TractionData data)
-    : system_(system), data_(std::move(data)), slot_of_node_(system.model().nodes(), -1) {
-  const std::vector<int>& nodes = data_.nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i) slot_of_node_[nodes[i]] = static_cast<int>(i);
-  balanced_ = system.model().traction_balance(Eigen::all, unknowns_of(nodes));
-  const auto columns = static_cast<Eigen::Index>(3 * nodes.size());
+    : system_(system), data_(std::move(data)) {
+  // z of all columns at once: the projection's functional times the matrix
+  const RigidProjection& projection = system.projection();
+  const Eigen::MatrixXd functional = projection.rigid().transpose();
   for (std::size_t c = 0; c < data_.response.size(); ++c) {
-    const SpectralMatrix& m = data_.response[c];
-    Eigen::MatrixXcd z(6, columns);
-    parallel_for(nodes.size(), [&](std::size_t i) {
-      const std::vector<int> unknowns = unknowns_of({static_cast<int>(i)});
-      Eigen::MatrixXcd v = m.real->extract_columns(unknowns).cast<Complex>();
-      if (m.imaginary) v.imag() = m.imaginary->extract_columns(unknowns);
-      z.middleCols<3>(static_cast<Eigen::Index>(3 * i)) =
-          system.projection().accelerations(static_cast<int>(c), v);
-    });
-    acceleration_.push_back(std::move(z));
+    const MatrixFamily& m = *data_.response[c];
+    Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(m.columns()),
+                                                  functional.cols() * m.count());
+    std::vector<FamilyTerm> terms;
+    std::vector<double*> outputs;
+    for (int k = 0; k < m.count(); ++k)
+      for (Eigen::Index i = 0; i < functional.cols(); ++i) {
+        terms.push_back({k, functional.col(i).data(), nullptr, static_cast<int>(outputs.size())});
+        outputs.push_back(rigid.col(static_cast<Eigen::Index>(outputs.size())).data());
+      }
+    m.multiply_transposed_add(terms, outputs);
+    Eigen::MatrixXcd moved = rigid.leftCols(6).transpose().cast<Complex>();
+    if (m.count() > 1) moved.imag() = rigid.rightCols(6).transpose();
+    acceleration_.push_back(projection.accelerations_of_rigid(static_cast<int>(c), moved));
   }
 }
 
-int NodalTractions::slot(int node) const {
-  const int slot = slot_of_node_[node];
-  require(slot >= 0, "the traction columns of the node are loaded");
-  return slot;
-}
-
 std::size_t NodalTractions::bytes() const {
-  std::size_t sum = 0;
-  for (const auto& m : data_.lags) sum += m->bytes();
-  for (const SpectralMatrix& m : data_.response)
-    sum += m.real->bytes() + (m.imaginary ? m.imaginary->bytes() : 0);
+  std::size_t sum = data_.lags->bytes();
+  for (const auto& m : data_.response) sum += m->bytes();
   return sum;
 }
 
 void NodalTractions::add_history(const NodalHistory& history,
                                  Eigen::MatrixXd& component_sums) const {
+  std::vector<SparseTerm> terms;
+  std::vector<double*> outputs;
+  const int components = system_.model().components();
+  for (int m = 0; m < components; ++m) outputs.push_back(component_sums.col(m).data());
   for (int k = 1; k <= history.length(); ++k) {
     const NodalHistory::Lag& lag = history.lag(k);
     if (lag.columns.empty()) continue;
-    for (int m = 0; m < system_.model().components(); ++m)
-      data_.lags[system_.model().lag_index(k, m)]->multiply_add_columns(
-          lag.columns, lag.inputs.col(m).data(), component_sums.col(m).data());
+    for (int m = 0; m < components; ++m)
+      terms.push_back({system_.model().lag_index(k, m), &lag.columns, lag.inputs.col(m).data(), m,
+                       history.factor(k)});
   }
+  data_.lags->multiply_add(terms, outputs);
 }
 
 void NodalTractions::add(const NodalLoad& load, SpectralState& state) const {
-  if (load.slots.empty()) return;
-  const std::vector<int> columns = unknowns_of(load.slots);
+  if (load.nodes.empty()) return;
+  const std::vector<int> columns = unknowns_of(load.nodes);
   const auto& initial = system_.scheme().initial_components();
   const Eigen::Index n = state.displacement[0].size();
   for (std::size_t c = 0; c < initial.size(); ++c) {
     const Eigen::VectorXcd values = load.stages.cast<Complex>() * initial[c].right;
     const Eigen::VectorXd real = values.real(), imaginary = values.imag();
-    const SpectralMatrix& m = data_.response[c];
+    const MatrixFamily& m = *data_.response[c];
     Eigen::VectorXd u_real = Eigen::VectorXd::Zero(n), u_imaginary = Eigen::VectorXd::Zero(n);
-    m.real->multiply_add_columns(columns, real.data(), u_real.data());
-    if (m.imaginary) {
-      const Eigen::VectorXd negative = -imaginary;
-      m.imaginary->multiply_add_columns(columns, negative.data(), u_real.data());
-      m.real->multiply_add_columns(columns, imaginary.data(), u_imaginary.data());
-      m.imaginary->multiply_add_columns(columns, real.data(), u_imaginary.data());
+    std::vector<SparseTerm> terms = {{0, &columns, real.data(), 0}};
+    if (m.count() > 1) {
+      terms.push_back({0, &columns, imaginary.data(), 1});
+      terms.push_back({1, &columns, imaginary.data(), 0, -1.0});
+      terms.push_back({1, &columns, real.data(), 1});
     }
+    m.multiply_add(terms, {u_real.data(), u_imaginary.data()});
     const Eigen::VectorXcd z = acceleration_[c](Eigen::all, columns) * values;
     state.displacement[c].real() += u_real;
     state.displacement[c].imag() += u_imaginary;
@@ -133,27 +137,27 @@ void NodalTractions::add(const NodalLoad& load, SpectralState& state) const {
 }
 
 void NodalTractions::subtract_balance(const NodalLoad& load, Eigen::MatrixXd& accelerations) const {
-  if (!load.slots.empty())
-    accelerations.noalias() -= balanced_acceleration(load.slots) * load.stages;
+  if (!load.nodes.empty())
+    accelerations.noalias() -= balanced_acceleration(load.nodes) * load.stages;
 }
 
 Eigen::MatrixXcd NodalTractions::response(int component, const std::vector<int>& rows,
-                                          const std::vector<int>& slots) const {
-  const std::vector<int> row_unknowns = unknowns_of(rows), columns = unknowns_of(slots);
-  const SpectralMatrix& m = data_.response[component];
-  Eigen::MatrixXcd out = m.real->extract_block(row_unknowns, columns).cast<Complex>();
-  if (m.imaginary) out.imag() = m.imaginary->extract_block(row_unknowns, columns);
+                                          const std::vector<int>& loaded) const {
+  const std::vector<int> row_unknowns = unknowns_of(rows), columns = unknowns_of(loaded);
+  const MatrixFamily& m = *data_.response[component];
+  Eigen::MatrixXcd out = m.block(0, row_unknowns, columns).cast<Complex>();
+  if (m.count() > 1) out.imag() = m.block(1, row_unknowns, columns);
   out.noalias() -= system_.projection().response(component)(row_unknowns, Eigen::all) *
                    acceleration_[component](Eigen::all, columns);
   return out;
 }
 
-Eigen::MatrixXcd NodalTractions::acceleration(int component, const std::vector<int>& slots) const {
-  return acceleration_[component](Eigen::all, unknowns_of(slots));
+Eigen::MatrixXcd NodalTractions::acceleration(int component, const std::vector<int>& nodes) const {
+  return acceleration_[component](Eigen::all, unknowns_of(nodes));
 }
 
-Eigen::MatrixXd NodalTractions::balanced_acceleration(const std::vector<int>& slots) const {
-  return balanced_(Eigen::all, unknowns_of(slots));
+Eigen::MatrixXd NodalTractions::balanced_acceleration(const std::vector<int>& nodes) const {
+  return system_.model().traction_balance(Eigen::all, unknowns_of(nodes));
 }
 
 }  // namespace bem

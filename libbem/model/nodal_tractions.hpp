@@ -4,20 +4,20 @@
 
 namespace bem {
 
-/// The columns of the traction matrices that belong to some nodes.
+/// The traction matrices, or those of their columns that belong to some nodes.
 struct TractionData {
-  std::vector<int> nodes;                           ///< ascending
-  std::vector<std::unique_ptr<StoredMatrix>> lags;  ///< of G_k, lag >= 1: 3N x 3 nodes
-  std::vector<SpectralMatrix> response;             ///< of H_0^{-1} G_0 by initial component
+  std::vector<int> nodes;                                ///< ascending
+  std::shared_ptr<const MatrixFamily> lags;              ///< G_k, lag >= 1
+  std::vector<std::shared_ptr<const MatrixFamily>> response;  ///< H_0^{-1} G_0
 };
 
-/// Picks columns of a model whose traction matrices are in memory.
-TractionData extract_tractions(const BodyModel& model, const std::vector<int>& nodes);
+/// Columns of a model whose traction matrices are in memory.
+TractionData extract_tractions(std::shared_ptr<const BodyModel> model, const std::vector<int>& nodes);
 
-/// Tractions at some of the nodes of a TractionData during a step.
+/// Tractions at some nodes during a step.
 struct NodalLoad {
-  std::vector<int> slots;  ///< positions in TractionData::nodes, ascending
-  Eigen::MatrixXd stages;  ///< 3 slots.size() x s [Pa, body axes]
+  std::vector<int> nodes;  ///< ascending
+  Eigen::MatrixXd stages;  ///< 3 nodes.size() x s [Pa, body axes]
 };
 
 /// Past nodal loads. Few nodes carry any, so every lag keeps its own list.
@@ -28,9 +28,11 @@ class NodalHistory {
 
   /// Makes `load` that of lag 1; older ones move on by one lag.
   void push(const NodalLoad& load);
+  /// The window's weight on a lag.
+  double factor(int k) const { return std::pow(window_, k); }
 
   struct Lag {
-    std::vector<int> columns;  ///< 3 slot + axis
+    std::vector<int> columns;  ///< 3 node + axis
     Eigen::MatrixXd inputs;    ///< columns.size() x components
   };
   const Lag& lag(int k) const { return ring_[(newest_ + k - 1) % ring_.size()]; }
@@ -48,9 +50,6 @@ class NodalTractions {
  public:
   NodalTractions(const ElasticSystem& system, TractionData data);
 
-  const std::vector<int>& nodes() const { return data_.nodes; }
-  /// Position of a node in nodes(), which must hold it.
-  int slot(int node) const;
   std::size_t bytes() const;
 
   /// component_sums (3N x components) += sum_k G_k p_{n-k}. Reads the columns of loaded nodes.
@@ -62,20 +61,18 @@ class NodalTractions {
   /// Subtracts the balanced value of (a', alpha) under a load (6 x s).
   void subtract_balance(const NodalLoad& load, Eigen::MatrixXd& accelerations) const;
 
-  /// Displacement without rigid part of some nodes by unit tractions at some slots, by initial
-  /// component: 3 rows.size() x 3 slots.size() [m/Pa].
+  /// Displacement without rigid part of some nodes by unit tractions at others, by initial
+  /// component: 3 rows.size() x 3 loaded.size() [m/Pa].
   Eigen::MatrixXcd response(int component, const std::vector<int>& rows,
-                            const std::vector<int>& slots) const;
-  /// The frame accelerations z of unit tractions (6 x 3 slots.size()), and the balanced ones.
-  Eigen::MatrixXcd acceleration(int component, const std::vector<int>& slots) const;
-  Eigen::MatrixXd balanced_acceleration(const std::vector<int>& slots) const;
+                            const std::vector<int>& loaded) const;
+  /// The frame accelerations z of unit tractions (6 x 3 nodes.size()), and the balanced ones.
+  Eigen::MatrixXcd acceleration(int component, const std::vector<int>& nodes) const;
+  Eigen::MatrixXd balanced_acceleration(const std::vector<int>& nodes) const;
 
  private:
   const ElasticSystem& system_;
   TractionData data_;
-  std::vector<int> slot_of_node_;
-  std::vector<Eigen::MatrixXcd> acceleration_;  ///< z, 6 x 3 nodes, by initial component
-  Eigen::MatrixXd balanced_;                    ///< 6 x 3 nodes
+  std::vector<Eigen::MatrixXcd> acceleration_;  ///< z, 6 x 3N, by initial component
 };
 
 /// The unknowns 3*i + axis of some nodes or slots.

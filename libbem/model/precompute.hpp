@@ -1,21 +1,19 @@
 #pragma once
 
-#include "model/body_model.hpp"
-
-#include <functional>
+#include "compress/codec.hpp"
+#include "model/slab_assembly.hpp"
 
 namespace bem {
 
 struct PrecomputeOptions {
   ModelKind kind = ModelKind::dynamic;  ///< rigid: nothing below but the material counts
   Discretisation discretisation;
-  Precision precision = Precision::float32;
+  Precision precision = Precision::float32;  ///< of uncompressed matrices
+  CodecOptions codec;
+  bool tractions = true;  ///< also what loads and contact need: G and H_0^{-1} G_0
   double window = 0;  ///< 0: the weakest that keeps the measured growth at or below 1
   bool measure_growth = true;
 };
-
-/// Called with the name of each phase as it begins and the fraction of it that is done.
-using Progress = std::function<void(const std::string& phase, double fraction)>;
 
 /// Computes all matrices of a body. Bit-identical for any number of threads. Throws
 /// ErrorCode::numerical if the automatic window would leave less than a hundredth of a motion after

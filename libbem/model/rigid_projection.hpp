@@ -20,9 +20,12 @@ class RigidProjection {
   /// Projects the columns of `v` (3N x n) in place and returns z (6 x n).
   Eigen::MatrixXcd project(int component, Eigen::Ref<Eigen::MatrixXcd> v) const;
 
-  /// z (6 x n) alone.
+  /// z (6 x n) alone, of displacements or of what Pi makes of them (6 x n).
   Eigen::MatrixXcd accelerations(int component, const Eigen::MatrixXcd& v) const {
-    return inverse_[component] * (rigid_ * v);
+    return accelerations_of_rigid(component, rigid_ * v);
+  }
+  Eigen::MatrixXcd accelerations_of_rigid(int component, const Eigen::MatrixXcd& moved) const {
+    return inverse_[component] * moved;
   }
   /// B = H_0^{-1} [D_0 Q_0], 3N x 6.
   const Eigen::MatrixXcd& response(int component) const { return response_[component]; }

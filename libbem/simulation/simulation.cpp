@@ -17,10 +17,8 @@ double now() {
 }
 
 std::size_t bytes_of(const BodyModel& m) {
-  std::size_t bytes = 0;
-  for (const auto& h : m.h) bytes += h->bytes();
-  for (const SpectralMatrix& s : m.inverse)
-    bytes += s.real->bytes() + (s.imaginary ? s.imaginary->bytes() : 0);
+  std::size_t bytes = m.h->bytes();
+  for (const auto& inverse : m.inverse) bytes += inverse->bytes();
   return bytes;
 }
 

@@ -1,0 +1,166 @@
+#include "compress/dense_family.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+#include <algorithm>
+
+namespace bem {
+
+template <class T>
+DenseFamily<T>::DenseFamily(std::size_t size, int count) {
+  for (int k = 0; k < count; ++k) matrices_.emplace_back(size, size);
+}
+
+template <class T>
+void DenseFamily<T>::multiply_add(const std::vector<FamilyTerm>& unsorted,
+                                  const std::vector<double*>& outputs) const {
+  const std::vector<FamilyTerm> terms = sorted_by_matrix(unsorted);
+  const auto n = static_cast<Eigen::Index>(columns()), m = static_cast<Eigen::Index>(rows());
+  for (auto first = terms.begin(); first != terms.end();) {
+    const auto last = std::find_if(first, terms.end(), [&](const FamilyTerm& t) {
+      return t.matrix != first->matrix;
+    });
+    const Eigen::Index count = last - first;
+    Eigen::MatrixXd inputs(n, count), products = Eigen::MatrixXd::Zero(m, count);
+    for (Eigen::Index c = 0; c < count; ++c)
+      inputs.col(c) = first[c].factor * Eigen::Map<const Eigen::VectorXd>(first[c].input, n);
+    matrices_[first->matrix].multiply_add(inputs.data(), products.data(), static_cast<int>(count));
+    for (Eigen::Index c = 0; c < count; ++c)
+      Eigen::Map<Eigen::VectorXd>(outputs[first[c].output], m) += products.col(c);
+    first = last;
+  }
+}
+
+template <class T>
+void DenseFamily<T>::multiply_add(const std::vector<SparseTerm>& terms,
+                                  const std::vector<double*>& outputs) const {
+  for (const SparseTerm& t : terms) {
+    const Eigen::VectorXd values =
+        t.factor * Eigen::Map<const Eigen::VectorXd>(
+                       t.values, static_cast<Eigen::Index>(t.columns->size()));
+    matrices_[t.matrix].multiply_add_columns(*t.columns, values.data(), outputs[t.output]);
+  }
+}
+
+template <class T>
+void DenseFamily<T>::multiply_transposed_add(const std::vector<FamilyTerm>& terms,
+                                             const std::vector<double*>& outputs) const {
+  for (const FamilyTerm& t : terms) {
+    const Eigen::VectorXd x =
+        t.factor *
+        Eigen::Map<const Eigen::VectorXd>(t.input, static_cast<Eigen::Index>(rows()));
+    matrices_[t.matrix].multiply_transposed_add(x.data(), outputs[t.output]);
+  }
+}
+
+template <class T>
+std::unique_ptr<MatrixFamily> DenseFamily<T>::combine(
+    const std::vector<std::vector<double>>& weights) const {
+  auto out = std::make_unique<DenseFamily<double>>(rows(), static_cast<int>(weights.size()));
+  parallel_for(rows(), [&](std::size_t i) {
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      double* sum = out->matrix(static_cast<int>(j)).row(i);
+      std::fill_n(sum, columns(), 0.0);
+      for (std::size_t k = 0; k < matrices_.size(); ++k)
+        if (const double w = weights[j][k]; w != 0)
+          for (std::size_t c = 0; c < columns(); ++c) sum[c] += w * matrices_[k].row(i)[c];
+    }
+  });
+  return out;
+}
+
+template <class T>
+void DenseBuilder<T>::add_rows(const std::vector<MatrixView<T>>& matrices) {
+  const std::size_t rows = static_cast<std::size_t>(matrices[0].rows());
+  parallel_for(rows * matrices.size(), [&](std::size_t i) {
+    const std::size_t k = i / rows, row = i % rows;
+    const auto from = matrices[k].row(static_cast<Eigen::Index>(row));
+    T* to = family_->matrix(static_cast<int>(k)).row(rows_ + row);
+    for (Eigen::Index j = 0; j < from.size(); ++j) to[j] = from[j];
+  });
+  rows_ += rows;
+}
+
+template <class T>
+ColumnFamily<T>::ColumnFamily(std::size_t size, std::vector<int> columns, int count)
+    : columns_(std::move(columns)), slots_(size, -1) {
+  for (std::size_t i = 0; i < columns_.size(); ++i) slots_[columns_[i]] = static_cast<int>(i);
+  for (int k = 0; k < count; ++k) matrices_.emplace_back(size, columns_.size());
+}
+
+template <class T>
+std::vector<int> ColumnFamily<T>::slots_of(const std::vector<int>& columns) const {
+  std::vector<int> slots;
+  slots.reserve(columns.size());
+  for (int c : columns) {
+    slots.push_back(slots_[c]);
+    require(slots.back() >= 0, "the column is in memory");
+  }
+  return slots;
+}
+
+template <class T>
+void ColumnFamily<T>::multiply_add(const std::vector<FamilyTerm>& terms,
+                                   const std::vector<double*>& outputs) const {
+  for (const FamilyTerm& t : terms) {
+    std::vector<double> values;
+    values.reserve(columns_.size());
+    for (int c : columns_) values.push_back(t.input[c]);
+    multiply_add(std::vector<SparseTerm>{{t.matrix, &columns_, values.data(), t.output, t.factor}},
+                 outputs);
+  }
+}
+
+template <class T>
+void ColumnFamily<T>::multiply_add(const std::vector<SparseTerm>& terms,
+                                   const std::vector<double*>& outputs) const {
+  for (const SparseTerm& t : terms) {
+    const Eigen::VectorXd values =
+        t.factor * Eigen::Map<const Eigen::VectorXd>(
+                       t.values, static_cast<Eigen::Index>(t.columns->size()));
+    matrices_[t.matrix].multiply_add_columns(slots_of(*t.columns), values.data(),
+                                             outputs[t.output]);
+  }
+}
+
+template <class T>
+void ColumnFamily<T>::multiply_transposed_add(const std::vector<FamilyTerm>& terms,
+                                              const std::vector<double*>& outputs) const {
+  for (const FamilyTerm& t : terms) {
+    Eigen::VectorXd products = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns_.size()));
+    matrices_[t.matrix].multiply_transposed_add(t.input, products.data());
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      outputs[t.output][columns_[i]] += t.factor * products[static_cast<Eigen::Index>(i)];
+  }
+}
+
+template <class T>
+std::unique_ptr<MatrixFamily> ColumnFamily<T>::combine(
+    const std::vector<std::vector<double>>& weights) const {
+  auto out = std::make_unique<ColumnFamily<double>>(rows(), columns_,
+                                                    static_cast<int>(weights.size()));
+  const std::size_t entries = rows() * columns_.size();
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    double* sum = out->matrix(static_cast<int>(j)).column(0);
+    std::fill_n(sum, entries, 0.0);
+    for (std::size_t k = 0; k < matrices_.size(); ++k)
+      for (std::size_t e = 0; e < entries; ++e) sum[e] += weights[j][k] * matrices_[k].column(0)[e];
+  }
+  return out;
+}
+
+template <class T>
+Eigen::MatrixXd ColumnFamily<T>::block(int matrix, const std::vector<int>& rows,
+                                       const std::vector<int>& columns) const {
+  return matrices_[matrix].block(rows, slots_of(columns));
+}
+
+template class DenseFamily<float>;
+template class DenseFamily<double>;
+template class DenseBuilder<float>;
+template class DenseBuilder<double>;
+template class ColumnFamily<float>;
+template class ColumnFamily<double>;
+
+}  // namespace bem

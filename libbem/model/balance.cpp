@@ -1,0 +1,178 @@
+#include "model/balance.hpp"
+
+#include "algebra/gmres.hpp"
+#include "base/error.hpp"
+#include "model/elastic_system.hpp"
+
+#include <Eigen/QR>
+
+namespace bem {
+namespace {
+
+using Columns = Eigen::MatrixXd;
+
+/// Sums of the lag matrices, one per component.
+std::unique_ptr<MatrixFamily> sum_lags(const BodyModel& model, const MatrixFamily& lags) {
+  const int components = model.components();
+  std::vector<std::vector<double>> weights(components, std::vector<double>(lags.count(), 0.0));
+  for (int k = 1; k <= model.discretisation.history_length; ++k)
+    for (int m = 0; m < components; ++m) weights[m][model.lag_index(k, m)] = 1;
+  return lags.combine(weights);
+}
+
+/// Transposed products of stage operators. Vectors hold all stages, one after another.
+class Adjoint {
+ public:
+  explicit Adjoint(const BodyModel& model)
+      : model_(model),
+        scheme_(model.discretisation.scheme),
+        n_(static_cast<Eigen::Index>(3 * model.nodes())) {}
+
+  /// (sum_k X_k)^T z for the lag sums of X.
+  Columns lags(const MatrixFamily& sums, const Columns& z) const {
+    const auto& components = scheme_.lag_components();
+    Columns out = Columns::Zero(z.rows(), z.cols());
+    for (std::size_t m = 0; m < components.size(); ++m) {
+      const Columns inputs = combine(components[m].left, z);
+      const Columns products = transposed(sums, static_cast<int>(m), inputs);
+      for (int b = 0; b < scheme_.stages(); ++b)
+        stage(out, b) += components[m].right[b] * products;
+    }
+    return out;
+  }
+
+  /// X_0^T z for a matrix of lag 0, by initial component.
+  Columns initial(const std::vector<std::unique_ptr<MatrixFamily>>& families,
+                  const Columns& z) const {
+    Columns out = Columns::Zero(z.rows(), z.cols());
+    for (std::size_t i = 0; i < families.size(); ++i) {
+      const InitialComponent& c = scheme_.initial_components()[i];
+      const MatrixFamily& family = *families[i];
+      const Columns real = combine(c.left.real(), z), imaginary = combine(c.left.imag(), z);
+      Eigen::MatrixXcd product = transposed(family, 0, real).cast<Complex>();
+      product.imag() = transposed(family, 0, imaginary);
+      if (family.count() > 1) {
+        product.real() -= transposed(family, 1, imaginary);
+        product.imag() += transposed(family, 1, real);
+      }
+      for (int b = 0; b < scheme_.stages(); ++b)
+        stage(out, b) += c.multiplicity() * (c.right[b] * product).real();
+    }
+    return out;
+  }
+
+  /// Sum over the stages of each column.
+  Columns stage_sum(const Columns& z) const {
+    return combine(StageVector::Ones(scheme_.stages()), z);
+  }
+
+ private:
+  Columns::BlockXpr stage(Columns& z, int a) const {
+    return z.block(a * n_, 0, n_, z.cols());
+  }
+  Columns combine(const StageVector& factors, const Columns& z) const {
+    Columns out = factors[0] * z.topRows(n_);
+    for (int a = 1; a < scheme_.stages(); ++a) out += factors[a] * z.middleRows(a * n_, n_);
+    return out;
+  }
+  Columns transposed(const MatrixFamily& family, int matrix, const Columns& inputs) const {
+    Columns out = Columns::Zero(n_, inputs.cols());
+    if (inputs.isZero(0)) return out;
+    std::vector<FamilyTerm> terms;
+    std::vector<double*> outputs;
+    for (Eigen::Index c = 0; c < inputs.cols(); ++c) {
+      terms.push_back({matrix, inputs.col(c).data(), nullptr, static_cast<int>(c)});
+      outputs.push_back(out.col(c).data());
+    }
+    family.multiply_transposed_add(terms, outputs);
+    return out;
+  }
+
+  const BodyModel& model_;
+  const Scheme& scheme_;
+  Eigen::Index n_;
+};
+
+/// H_0^{-1} [D Q](0): displacement stages by acceleration stages, (3N s) x (6 s).
+Columns body_response(const BodyModel& model, const ElasticSystem& system) {
+  const Scheme& scheme = model.discretisation.scheme;
+  const auto n = static_cast<Eigen::Index>(3 * model.nodes());
+  const int stages = scheme.stages();
+  std::vector<Columns> sums(model.components(), Columns::Zero(n, 6));
+  for (std::size_t i = 0; i < model.body_force.size(); ++i)
+    sums[i % sums.size()] += model.body_force[i];
+  Columns out = Columns::Zero(n * stages, 6 * stages);
+  for (std::size_t i = 0; i < scheme.initial_components().size(); ++i) {
+    const InitialComponent& c = scheme.initial_components()[i];
+    for (int b = 0; b < stages; ++b) {
+      Eigen::MatrixXcd forces = c.right[b] * model.initial_body_force[i];
+      for (std::size_t m = 0; m < sums.size(); ++m) {
+        const LagComponent& lag = scheme.lag_components()[m];
+        const Complex factor = (c.right.transpose() * lag.left.cast<Complex>()).value() * lag.right[b];
+        forces += factor * sums[m];
+      }
+      const Eigen::MatrixXcd response = system.apply_inverse(static_cast<int>(i), forces);
+      for (int a = 0; a < stages; ++a)
+        out.block(a * n, 6 * b, n, 6) += c.multiplicity() * (c.left[a] * response).real();
+    }
+  }
+  return out;
+}
+
+/// Orthonormal rows that span those of Pi.
+Columns orthonormal_rigid(const Columns& rigid) {
+  const Eigen::HouseholderQR<Columns> qr(rigid.transpose());
+  return qr.householderQ() * Columns::Identity(rigid.cols(), rigid.rows());
+}
+
+}  // namespace
+
+void compute_balance(BodyModel& model) {
+  constexpr double kTolerance = 1e-13, kAcceptable = 1e-4;
+  const ElasticSystem system(model, 1);
+  const Scheme& scheme = model.discretisation.scheme;
+  const int stages = scheme.stages();
+  const auto n = static_cast<Eigen::Index>(3 * model.nodes());
+  const Adjoint adjoint(model);
+  const auto sums = sum_lags(model, *model.h);
+  const Columns rigid = orthonormal_rigid(system.projection().rigid());
+  Columns response = body_response(model, system);
+  const Eigen::VectorXd scales = response.colwise().norm();
+  response = response * scales.cwiseInverse().asDiagonal();
+
+  // unknowns: the adjoint of u, then that of the condition Pi u = 0, stage by stage
+  const auto apply = [&](const Columns& x) {
+    const Columns z = x.topRows(n * stages);
+    Columns out(x.rows(), x.cols());
+    out.topRows(n * stages) = z + adjoint.lags(*sums, adjoint.initial(model.inverse, z));
+    for (int a = 0; a < stages; ++a)
+      out.middleRows(a * n, n) += rigid * x.middleRows(n * stages + 6 * a, 6);
+    out.bottomRows(6 * stages) = -response.transpose() * z;
+    return out;
+  };
+  // the functional that is wanted: the mean over a step of the accelerations at the stages
+  const StageVector mean = scheme.integration().row(stages - 1).transpose() /
+                           scheme.integration().row(stages - 1).sum();
+  Columns wanted = Columns::Zero((n + 6) * stages, 6);
+  for (int a = 0; a < stages; ++a)
+    wanted.block(n * stages + 6 * a, 0, 6, 6) =
+        mean[a] * scales.segment(6 * a, 6).cwiseInverse().asDiagonal().toDenseMatrix();
+  const Eigen::VectorXd sizes = wanted.colwise().norm();
+  Columns solution = Columns::Zero(wanted.rows(), 6);
+  const GmresResult result = gmres<double>(
+      apply, wanted * sizes.cwiseInverse().asDiagonal(), solution, {kTolerance, 300});
+  if (!(result.residual <= kAcceptable))
+    throw Error(ErrorCode::numerical,
+                "the static balance of the body cannot be computed: its matrices are too "
+                "inaccurate; use a smaller --codec-tol or --quadrature-tol");
+  const Columns z = solution.topRows(n * stages) * sizes.asDiagonal();
+  const Columns forces = adjoint.initial(model.inverse, z);
+  model.balance = adjoint.stage_sum(forces).transpose();
+  if (!model.g) return;
+  const auto traction_sums = sum_lags(model, *model.g);
+  const Columns tractions =
+      adjoint.initial(model.traction_response, z) + adjoint.lags(*traction_sums, forces);
+  model.traction_balance = adjoint.stage_sum(tractions).transpose();
+}
+
+}  // namespace bem

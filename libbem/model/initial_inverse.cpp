@@ -1,0 +1,179 @@
+#include "model/initial_inverse.hpp"
+
+#include "base/parallel.hpp"
+#include "compress/dense_family.hpp"
+#include "compress/low_rank_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bem {
+namespace {
+
+template <class Stored>
+MatrixView<Stored> view(const Eigen::Matrix<Stored, Eigen::Dynamic, Eigen::Dynamic>& m) {
+  return {m.data(), m.rows(), m.cols(), Eigen::OuterStride<>(m.rows())};
+}
+
+template <class Stored, class T>
+std::unique_ptr<MatrixFamily> store_dense(const DenseMatrix<T>& m) {
+  using Part = Eigen::Matrix<Stored, Eigen::Dynamic, Eigen::Dynamic>;
+  constexpr Eigen::Index kSlab = 256;
+  constexpr bool paired = std::is_same_v<T, Complex>;
+  DenseBuilder<Stored> builder(static_cast<std::size_t>(m.rows()), paired ? 2 : 1);
+  for (Eigen::Index first = 0; first < m.rows(); first += kSlab) {
+    const auto rows = m.middleRows(first, std::min(kSlab, m.rows() - first));
+    if constexpr (paired) {
+      const Part real = rows.real().template cast<Stored>();
+      const Part imaginary = rows.imag().template cast<Stored>();
+      builder.add_rows({view(real), view(imaginary)});
+    } else {
+      const Part real = rows.template cast<Stored>();
+      builder.add_rows({view(real)});
+    }
+  }
+  return builder.finish();
+}
+
+template <class T>
+std::unique_ptr<MatrixFamily> store(const BodyModel& model, const DenseMatrix<T>& m) {
+  return model.precision == Precision::float32 ? store_dense<float>(m) : store_dense<double>(m);
+}
+
+template <class T>
+DenseMatrix<T> invert(BodyModel& model, Lu<T>&& lu, const Progress& progress) {
+  if (progress) progress("inverse", 0);
+  const double norm = lu.norm1();
+  DenseMatrix<T> inverse = std::move(lu).invert();
+  model.report.condition = std::max(model.report.condition, norm * norm1(inverse));
+  return inverse;
+}
+
+template <class T>
+Lu<T> factorise(DenseMatrix<T>&& h, const Progress& progress) {
+  if (progress) progress("factorisation", 0);
+  return Lu<T>(std::move(h));
+}
+
+template <class T>
+void invert_dense(BodyModel& model, DenseMatrix<T>&& h, DenseMatrix<T>* g,
+                  const Progress& progress) {
+  Lu<T> lu = factorise(std::move(h), progress);
+  if (g) {
+    if (progress) progress("traction response", 0);
+    lu.solve(*g);
+    model.traction_response.push_back(store(model, *g));
+    g->resize(0, 0);
+  }
+  model.inverse.push_back(store(model, invert(model, std::move(lu), progress)));
+}
+
+/// Rows of a matrix as single precision parts: real, and imaginary of a complex one.
+template <class T>
+std::vector<FloatMatrix> parts(const DenseMatrix<T>& m, Eigen::Index first, Eigen::Index count) {
+  std::vector<FloatMatrix> out;
+  if constexpr (std::is_same_v<T, Complex>) {
+    out.emplace_back(m.middleRows(first, count).real().template cast<float>());
+    out.emplace_back(m.middleRows(first, count).imag().template cast<float>());
+  } else {
+    out.emplace_back(m.middleRows(first, count).template cast<float>());
+  }
+  return out;
+}
+
+std::vector<MatrixView<float>> views(const std::vector<FloatMatrix>& matrices) {
+  std::vector<MatrixView<float>> out;
+  for (const FloatMatrix& m : matrices) out.push_back(view(m));
+  return out;
+}
+
+/// Rows of H_0^{-1}, as parts, times G_0.
+std::vector<FloatMatrix> times(const std::vector<FloatMatrix>& rows, const LowRankFamily& g) {
+  std::vector<FloatMatrix> out;
+  out.push_back(g.multiply_left(rows[0], 0));
+  if (rows.size() == 1) return out;
+  out[0] -= g.multiply_left(rows[1], 1);
+  out.push_back(g.multiply_left(rows[0], 1) + g.multiply_left(rows[1], 0));
+  return out;
+}
+
+double squared_norm(const std::vector<FloatMatrix>& matrices) {
+  double sum = 0;
+  for (const FloatMatrix& m : matrices) sum += m.cast<double>().squaredNorm();
+  return sum;
+}
+
+/// Frobenius norm of H_0^{-1} G_0, estimated from some of its rows.
+template <class T>
+double response_norm(const DenseMatrix<T>& inverse, const LowRankFamily& g) {
+  constexpr Eigen::Index kSamples = 48;
+  const Eigen::Index n = inverse.rows(), samples = std::min(n, kSamples);
+  DenseMatrix<T> rows(samples, n);
+  for (Eigen::Index i = 0; i < samples; ++i) rows.row(i) = inverse.row(i * n / samples);
+  return std::sqrt(squared_norm(times(parts(rows, 0, samples), g)) * static_cast<double>(n) /
+                   static_cast<double>(samples));
+}
+
+template <class T>
+void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, const LowRankFamily* g,
+                       double tolerance, const Progress& progress) {
+  const DenseMatrix<T> inverse =
+      invert(model, factorise(std::move(h), progress), progress);
+  const auto size = static_cast<std::size_t>(inverse.rows());
+  const int count = std::is_same_v<T, Complex> ? 2 : 1;
+  const std::vector<Slab> partition = make_partition(model.geometry.nodes.vertices, {});
+  const auto builder = [&](double norm) {
+    return LowRankBuilder(partition, count,
+                          LowRankBuilder::quantum_for(tolerance, norm, size, count));
+  };
+  LowRankBuilder inverse_builder = builder(inverse.norm());
+  std::unique_ptr<LowRankBuilder> response_builder;
+  if (g) response_builder = std::make_unique<LowRankBuilder>(builder(response_norm(inverse, *g)));
+  for (const Slab& slab : partition) {
+    if (progress)
+      progress("compressing the inverse",
+               static_cast<double>(3 * slab.row_begin) / static_cast<double>(size));
+    const std::vector<FloatMatrix> rows =
+        parts(inverse, 3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin));
+    inverse_builder.add_rows(views(rows));
+    if (g) response_builder->add_rows(views(times(rows, *g)));
+  }
+  model.inverse.push_back(inverse_builder.finish());
+  if (g) model.traction_response.push_back(response_builder->finish());
+}
+
+}  // namespace
+
+void InitialMatrix::set_rows(Eigen::Index first, const Eigen::MatrixXd& real_part,
+                             const Eigen::MatrixXd* imaginary_part) {
+  constexpr Eigen::Index kTile = 64;
+  const Eigen::Index columns = real_part.cols();
+  parallel_for((columns + kTile - 1) / kTile, [&](std::size_t tile) {
+    const Eigen::Index begin = static_cast<Eigen::Index>(tile) * kTile;
+    const Eigen::Index count = std::min(kTile, columns - begin);
+    if (!paired) {
+      real.block(first, begin, real_part.rows(), count) = real_part.middleCols(begin, count);
+      return;
+    }
+    auto to = complex.block(first, begin, real_part.rows(), count);
+    to.real() = real_part.middleCols(begin, count);
+    to.imag() = imaginary_part->middleCols(begin, count);
+  });
+}
+
+void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const Progress& progress) {
+  if (h.paired)
+    invert_dense(model, std::move(h.complex), g ? &g->complex : nullptr, progress);
+  else
+    invert_dense(model, std::move(h.real), g ? &g->real : nullptr, progress);
+}
+
+void invert_compressed(BodyModel& model, InitialMatrix&& h, const LowRankFamily* g,
+                       double tolerance, const Progress& progress) {
+  if (h.paired)
+    invert_compressed(model, std::move(h.complex), g, tolerance, progress);
+  else
+    invert_compressed(model, std::move(h.real), g, tolerance, progress);
+}
+
+}  // namespace bem

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "compress/codec.hpp"
+#include "compress/low_rank_family.hpp"
+#include "model/slab_assembly.hpp"
+
+#include <functional>
+
+namespace bem {
+
+/// The dense matrices of lag 0 of one initial component while they are inverted: real, or complex
+/// for a component that stands for a pair.
+struct InitialMatrix {
+  bool paired = false;
+  DenseMatrix<double> real;
+  DenseMatrix<Complex> complex;
+
+  InitialMatrix(Eigen::Index n, bool is_paired) : paired(is_paired) {
+    if (paired)
+      complex.resize(n, n);
+    else
+      real.resize(n, n);
+  }
+  /// Rows from their real and imaginary parts.
+  void set_rows(Eigen::Index first, const Eigen::MatrixXd& real_part,
+                const Eigen::MatrixXd* imaginary_part);
+};
+
+/// Adds H_0^{-1} and, from the uncompressed G_0, H_0^{-1} G_0 of a component to the model, in the
+/// precision of the model; `g` may be null. Notes the condition number.
+void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const Progress& progress);
+
+/// The same compressed, with `g` compressed, too: H_0^{-1} is multiplied by it slab by slab.
+void invert_compressed(BodyModel& model, InitialMatrix&& h, const LowRankFamily* g,
+                       double tolerance, const Progress& progress);
+
+}  // namespace bem

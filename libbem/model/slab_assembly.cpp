@@ -1,0 +1,165 @@
+#include "model/slab_assembly.hpp"
+
+#include "base/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bem {
+namespace {
+
+constexpr int kSymmetric[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+constexpr int kTileNodes = 8;
+
+template <class Matrix>
+void resize(std::vector<Matrix>& matrices, int count, Eigen::Index rows, Eigen::Index columns) {
+  matrices.resize(count);
+  for (auto& m : matrices) m.resize(rows, columns);  // not initialised
+}
+
+}  // namespace
+
+template <class T>
+SlabAssembler<T>::SlabAssembler(BodyModel& model, AssemblyPrecision precision, bool tractions)
+    : model_(model),
+      precision_(precision),
+      tractions_(tractions),
+      assembler_(model.geometry.nodes, model.geometry.extent, model.discretisation),
+      layout_(assembler_.layout()) {
+  const auto n = static_cast<Eigen::Index>(3 * model.nodes());
+  const std::size_t components = model.discretisation.scheme.initial_components().size();
+  model_.body_force.assign(lag_count(), Eigen::MatrixXd(n, 6));
+  model_.initial_body_force.assign(components, Eigen::MatrixXcd::Zero(n, 6));
+}
+
+template <class T>
+void SlabAssembler<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
+  const Eigen::Index rows = 3 * (last - first);
+  const auto columns = static_cast<Eigen::Index>(3 * model_.nodes());
+  slab.first = first;
+  slab.last = last;
+  resize(slab.h, lag_count(), rows, columns);
+  resize(slab.g, tractions_ ? lag_count() : 0, rows, columns);
+  resize(slab.initial_h, initial_count(), rows, columns);
+  resize(slab.initial_g, tractions_ ? initial_count() : 0, rows, columns);
+  if (precision_ == AssemblyPrecision::single)
+    assemble_tiles<float>(first, last, slab);
+  else
+    assemble_tiles<double>(first, last, slab);
+}
+
+template <class T>
+template <class S>
+void SlabAssembler<T>::assemble_tiles(int first, int last, MatrixSlab<T>& slab) {
+  const std::size_t tiles = (last - first + kTileNodes - 1) / kTileNodes;
+  std::vector<double> residuals(last - first, 0.0);
+  parallel_for(tiles, [&](std::size_t tile) {
+    thread_local RowAssembler::Workspace work;
+    thread_local std::vector<BlockRow<S>> rows(kTileNodes);
+    const int begin = first + static_cast<int>(tile) * kTileNodes;
+    const int count = std::min(kTileNodes, last - begin);
+    for (int v = 0; v < count; ++v) {
+      residuals[begin - first + v] = assembler_.assemble(begin + v, true, work, rows[v]);
+      distribute_body_force(begin + v, rows[v].d, rows[v].q, rows[v].padded_lanes);
+    }
+    distribute(begin, rows, count, slab);
+  });
+  residual_ = std::max(residual_, *std::max_element(residuals.begin(), residuals.end()));
+}
+
+template <class T>
+template <class S>
+void SlabAssembler<T>::distribute(int first, const std::vector<BlockRow<S>>& rows, int count,
+                                  MatrixSlab<T>& slab) const {
+  const int row = 3 * (first - slab.first);
+  for (int lane = 0; lane < layout_.initial; ++lane)
+    copy_lane(lane, rows, count, row, slab.initial_h[lane],
+              tractions_ ? &slab.initial_g[lane] : nullptr);
+  for (int lane = layout_.initial; lane < layout_.count(); ++lane)
+    copy_lane(lane, rows, count, row, slab.h[lane - layout_.initial],
+              tractions_ ? &slab.g[lane - layout_.initial] : nullptr);
+}
+
+/// One lane of a tile of nodes, written column by column: pieces of columns are contiguous.
+template <class T>
+template <class S, class To>
+void SlabAssembler<T>::copy_lane(int lane, const std::vector<BlockRow<S>>& rows, int count, int row,
+                                 To& h, To* g) const {
+  using Entry = typename To::Scalar;
+  const int n = static_cast<int>(model_.nodes());
+  for (int j = 0; j < n; ++j)
+    for (int c = 0; c < 3; ++c) {
+      Entry* to_h = &h(row, 3 * j + c);
+      for (int v = 0; v < count; ++v)
+        for (int r = 0; r < 3; ++r)
+          *to_h++ = static_cast<Entry>(
+              rows[v].h_block(j)[(3 * r + c) * rows[v].padded_lanes + lane]);
+      if (!g) continue;
+      Entry* to_g = &(*g)(row, 3 * j + c);
+      for (int v = 0; v < count; ++v)
+        for (int r = 0; r < 3; ++r)
+          *to_g++ = static_cast<Entry>(
+              rows[v].g_block(j)[kSymmetric[3 * r + c] * rows[v].padded_lanes + lane]);
+    }
+}
+
+template <class T>
+void SlabAssembler<T>::distribute_body_force(int node, const AlignedVector<double>& d,
+                                             const AlignedVector<double>& q, int padded_lanes) {
+  const auto& components = model_.discretisation.scheme.initial_components();
+  for (int e = 0; e < 9; ++e) {
+    const int r = 3 * node + e / 3, c = e % 3;
+    const double* from_d = &d[static_cast<std::size_t>(e) * padded_lanes];
+    const double* from_q = &q[static_cast<std::size_t>(e) * padded_lanes];
+    for (int lane = layout_.initial; lane < layout_.count(); ++lane) {
+      model_.body_force[lane - layout_.initial](r, c) = from_d[lane];
+      model_.body_force[lane - layout_.initial](r, 3 + c) = from_q[lane];
+    }
+    int lane = 0;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      const bool paired = components[i].paired;
+      Eigen::MatrixXcd& m = model_.initial_body_force[i];
+      m(r, c) = Complex(from_d[lane], paired ? from_d[lane + 1] : 0.0);
+      m(r, 3 + c) = Complex(from_q[lane], paired ? from_q[lane + 1] : 0.0);
+      lane += paired ? 2 : 1;
+    }
+  }
+}
+
+template <class T>
+typename SlabAssembler<T>::Norms SlabAssembler<T>::estimate_norms() const {
+  constexpr int kSamples = 48;
+  const int n = static_cast<int>(model_.nodes()), samples = std::min(n, kSamples);
+  std::vector<Norms> parts(samples);
+  parallel_for(samples, [&](std::size_t i) {
+    thread_local RowAssembler::Workspace work;
+    thread_local BlockRow<float> row;
+    const auto node = static_cast<int>(static_cast<long>(i) * n / samples);
+    assembler_.assemble(node, true, work, row);
+    for (int j = 0; j < n; ++j)
+      for (int lane = 0; lane < layout_.count(); ++lane) {
+        const bool initial = lane < layout_.initial;
+        for (int e = 0; e < 9; ++e) {
+          const double h = row.h_block(j)[e * row.padded_lanes + lane];
+          const double g = row.g_block(j)[kSymmetric[e] * row.padded_lanes + lane];
+          (initial ? parts[i].initial_h : parts[i].h) += h * h;
+          (initial ? parts[i].initial_g : parts[i].g) += g * g;
+        }
+      }
+  });
+  Norms sum;
+  for (const Norms& p : parts) {
+    sum.h += p.h;
+    sum.g += p.g;
+    sum.initial_h += p.initial_h;
+    sum.initial_g += p.initial_g;
+  }
+  const double scale = static_cast<double>(n) / samples;
+  return {std::sqrt(scale * sum.h), std::sqrt(scale * sum.g), std::sqrt(scale * sum.initial_h),
+          std::sqrt(scale * sum.initial_g)};
+}
+
+template class SlabAssembler<float>;
+template class SlabAssembler<double>;
+
+}  // namespace bem

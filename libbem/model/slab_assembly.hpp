@@ -1,0 +1,71 @@
+#pragma once
+
+#include "algebra/lu.hpp"
+#include "compress/family_builder.hpp"
+#include "model/body_model.hpp"
+
+#include <functional>
+
+namespace bem {
+
+/// Called with the name of each phase as it begins and the fraction of it that is done.
+using Progress = std::function<void(const std::string& phase, double fraction)>;
+
+/// Rows [first, last) of nodes of all lag matrices in memory, column-major, and of the matrices of
+/// lag 0. T: float or double, what is stored.
+template <class T>
+struct MatrixSlab {
+  using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+  int first = 0, last = 0;
+  std::vector<Matrix> h, g;  ///< lags >= 1, by lag index
+  /// Lag 0: real and, of complex components, imaginary parts, one component after another.
+  std::vector<Eigen::MatrixXd> initial_h, initial_g;
+};
+
+/// What a slab is assembled in: single precision for far panels where storage and tolerance ask for
+/// no more, double otherwise.
+enum class AssemblyPrecision { single, full };
+
+/// Assembles the matrices of a model slab by slab.
+template <class T>
+class SlabAssembler {
+ public:
+  /// Sizes the small matrices of the model (body forces), which the slabs fill. The model's geometry
+  /// and discretisation must be set; it must outlive this.
+  SlabAssembler(BodyModel& model, AssemblyPrecision precision, bool tractions);
+
+  /// Rows of nodes [first, last); uses all worker threads.
+  void assemble(int first, int last, MatrixSlab<T>& slab);
+
+  /// Frobenius norms of all matrices of a kind together, estimated from some of their rows.
+  struct Norms {
+    double h = 0, g = 0, initial_h = 0, initial_g = 0;
+  };
+  Norms estimate_norms() const;
+
+  /// Matrices of lags >= 1, and parts of lag 0.
+  int lag_count() const { return layout_.count() - layout_.initial; }
+  int initial_count() const { return layout_.initial; }
+  double row_sum_residual() const { return residual_; }
+
+ private:
+  template <class S>
+  void assemble_tiles(int first, int last, MatrixSlab<T>& slab);
+  template <class S>
+  void distribute(int first, const std::vector<BlockRow<S>>& rows, int count,
+                  MatrixSlab<T>& slab) const;
+  template <class S, class To>
+  void copy_lane(int lane, const std::vector<BlockRow<S>>& rows, int count, int row, To& h,
+                 To* g) const;
+  void distribute_body_force(int node, const AlignedVector<double>& d,
+                             const AlignedVector<double>& q, int padded_lanes);
+
+  BodyModel& model_;
+  AssemblyPrecision precision_;
+  bool tractions_;
+  RowAssembler assembler_;
+  LaneLayout layout_;
+  double residual_ = 0;
+};
+
+}  // namespace bem
