@@ -303,8 +303,9 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
   write_provenance(file, provenance);
   if (!rigid) {
     file.set_attribute("/", "codec", codec_name(model.codec));
-    file.set_attribute("/", "precision",
-                       model.precision == Precision::float32 ? "float32" : "float64");
+    if (model.codec == Codec::none)
+      file.set_attribute("/", "precision",
+                         model.precision == Precision::float32 ? "float32" : "float64");
     write_scheme(file, model);
     write_report(file, model.report);
     write_matrices(file, model, progress);

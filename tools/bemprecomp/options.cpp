@@ -26,7 +26,7 @@ struct Typed {
   Options options;
   std::string info, verify;
   std::vector<std::string> diff, damping;
-  std::string window = "auto", model = "dynamic", codec = "none", corner_angle = "none",
+  std::string window = "auto", model = "dynamic", codec = "lowrank", corner_angle = "none",
               precision = "float32";
   std::optional<double> codec_tolerance, compression_ratio;
 };
@@ -56,13 +56,14 @@ void add_matrix_options(CLI::App& app, Typed& t) {
   app.add_option("--quadrature-tol", o.quadrature_tolerance,
                  "relative error aimed at by the spatial quadrature (1e-6)")
       ->type_name("X");
-  app.add_option("--codec", t.codec, "none; haar and lowrank are not supported yet (none for now)")
+  app.add_option("--codec", t.codec,
+                 "lowrank, or none: every entry; haar is not supported yet (lowrank)")
       ->type_name("NAME");
-  app.add_option("--codec-tol", t.codec_tolerance, "relative error aimed at by the codec")
+  app.add_option("--codec-tol", t.codec_tolerance, "relative error aimed at by the codec (1e-4)")
       ->type_name("X");
   app.add_option("--compression-ratio", t.compression_ratio, "entries before / entries kept (haar)")
       ->type_name("R");
-  app.add_option("--precision", t.precision, "float32 or float64 matrices (float32)")
+  app.add_option("--precision", t.precision, "with --codec none: float32 or float64 (float32)")
       ->type_name("NAME");
   app.add_option("--corner-angle-deg", t.corner_angle,
                  "double nodes along sharp edges: none; angles are not supported yet (none)")
@@ -126,11 +127,13 @@ void check_supported(const Typed& t) {
     refuse(option + " does not know \"" + value + "\"; use " + now);
   };
   if (t.model != "rigid") one_of("--model", t.model, {"static"}, "dynamic");
-  one_of("--codec", t.codec, {"haar", "lowrank"}, "none");
-  if (t.codec_tolerance) refuse("--codec-tol belongs to --codec haar or lowrank");
+  if (t.codec != "none") one_of("--codec", t.codec, {"haar"}, "lowrank");
+  if (t.codec_tolerance && t.codec == "none") refuse("--codec-tol belongs to --codec lowrank");
   if (t.compression_ratio) refuse("--compression-ratio belongs to --codec haar");
   if (t.corner_angle != "none")
     refuse("--corner-angle-deg with an angle is not supported yet; use --corner-angle-deg none");
+  if (t.codec != "none" && t.precision != "float32")
+    refuse("--precision belongs to --codec none; use --codec-tol with --codec " + t.codec);
   if (t.precision != "float32" && t.precision != "float64")
     refuse("--precision is float32 or float64, not \"" + t.precision + "\"");
 }
@@ -184,6 +187,9 @@ Options checked(const CLI::App& app, Typed& t) {
     o.model = t.model == "rigid" ? ModelKind::rigid : ModelKind::dynamic;
     o.window = parse_window(t.window);
     o.precision = t.precision == "float32" ? Precision::float32 : Precision::float64;
+    o.codec.codec = t.codec == "none" ? Codec::none : Codec::lowrank;
+    if (t.codec_tolerance) o.codec.tolerance = *t.codec_tolerance;
+    number_in("--codec-tol", o.codec.tolerance, 1e-6, 0.1);
     check_inputs(o);
   }
   check_distinct_files(o);
@@ -199,8 +205,12 @@ std::string Options::canonical_text() const {
   if (history) text += " --history " + std::to_string(*history);
   if (history_tolerance) text += " --history-tol " + to_text(*history_tolerance);
   text += " --quadrature-tol " + to_text(quadrature_tolerance);
-  text += std::string(" --precision ") + (precision == Precision::float32 ? "float32" : "float64");
-  return text + " --model dynamic --codec none --corner-angle-deg none";
+  text += " --model dynamic --codec " + std::string(codec_name(codec.codec));
+  if (codec.codec == Codec::none)
+    text += std::string(" --precision ") + (precision == Precision::float32 ? "float32" : "float64");
+  else
+    text += " --codec-tol " + to_text(codec.tolerance);
+  return text + " --corner-angle-deg none";
 }
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {

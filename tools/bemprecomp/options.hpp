@@ -23,7 +23,8 @@ struct Options {
   std::optional<double> history_tolerance;
   std::optional<int> history;
   double quadrature_tolerance = 1e-6;
-  Precision precision = Precision::float32;
+  Precision precision = Precision::float32;  ///< of codec none
+  CodecOptions codec;
   double mesh_scale = 1;
   std::optional<int> threads;
 

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
+#include "compress/dense_store.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
 #include "scene/material_json.hpp"
@@ -102,6 +103,7 @@ Plan make_plan(const Options& o) {
   d.scheme = Scheme::parse(o.scheme);
   d.quadrature_tolerance = o.quadrature_tolerance;
   plan.options.precision = o.precision;
+  plan.options.codec = o.codec;
   plan.options.window = o.window;
   plan.geometry = read_body(o, d.material.density, plan.warnings);
   plan.lam = traversal_steps(plan.geometry, d.material, d.dt);

@@ -105,8 +105,8 @@ Json info_json(const Archive& archive) {
                  {"mesh_scale", p.mesh_scale},
                  {"options", p.options}}}};
   if (archive.kind() == ModelKind::rigid) return json;
-  json["codec"] = kArchiveCodec;
-  json["precision"] = precision_name(archive.precision());
+  json["codec"] = codec_name(archive.codec());
+  if (archive.codec() == Codec::none) json["precision"] = precision_name(archive.precision());
   json["scheme"] = scheme_json(archive.discretisation(), archive.window());
   json["matrices"] = {{"unknowns", archive.unknowns()}, {"count", archive.matrix_paths().size()}};
   json["report"] = report_json(archive.report());
@@ -121,8 +121,10 @@ void print_matrices(Table& table, const Archive& archive) {
   print_scheme(table, d, r.lam);
   table.line("window", archive.window());
   table.line("matrices", archive.matrix_paths().size(), " of ", archive.unknowns(), " x ",
-             archive.unknowns(), ", ", precision_name(archive.precision()), ", codec ",
-             kArchiveCodec);
+             archive.unknowns(), ", codec ", codec_name(archive.codec()),
+             archive.codec() == Codec::none
+                 ? std::string(", ") + precision_name(archive.precision())
+                 : "");
   table.line("quadrature", "tolerance ", d.quadrature_tolerance, ", row sums repaired by ",
              r.row_sum_residual, ", rotation residual ", r.rotation_residual);
   table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
@@ -184,7 +186,8 @@ Json stats_json(const BodyModel& model, const std::string& archive, const PhaseT
                {"material", material_json(model.discretisation.material)},
                {"warnings", warnings}};
   if (model.kind == ModelKind::rigid) return json;
-  json["precision"] = precision_name(model.precision);
+  json["codec"] = codec_name(model.codec);
+  if (model.codec == Codec::none) json["precision"] = precision_name(model.precision);
   json["scheme"] = scheme_json(model.discretisation, model.window);
   json["report"] = report_json(model.report);
   return json;
