@@ -1,4 +1,5 @@
 #include "base/parallel.hpp"
+#include "compress/dense_family.hpp"
 #include "model/growth.hpp"
 #include "simulation/simulation.hpp"
 #include "support.hpp"
@@ -113,16 +114,16 @@ bem::Scene ringing_sphere(double dt) {
 }
 
 double seconds_of_reading(const bem::BodyModel& model) {
-  const auto read = [](const bem::StoredMatrix& m) {
-    const auto& dense = dynamic_cast<const bem::DenseStore<float>&>(m);
-    benchmark::DoNotOptimize(plain_read(dense.row(0), dense.rows() * dense.columns()));
+  const auto read = [](const bem::MatrixFamily& family) {
+    const auto& dense = dynamic_cast<const bem::DenseFamily<float>&>(family);
+    for (int k = 0; k < dense.count(); ++k) {
+      const bem::DenseStore<float>& m = dense.matrix(k);
+      benchmark::DoNotOptimize(plain_read(m.row(0), m.rows() * m.columns()));
+    }
   };
   const auto start = std::chrono::steady_clock::now();
-  for (const auto& h : model.h) read(*h);
-  for (const bem::SpectralMatrix& inverse : model.inverse) {
-    read(*inverse.real);
-    if (inverse.imaginary) read(*inverse.imaginary);
-  }
+  read(*model.h);
+  for (const auto& inverse : model.inverse) read(*inverse);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

@@ -15,7 +15,8 @@ namespace {
 using FloatMap = Eigen::Map<const FloatMatrix>;
 
 constexpr Eigen::Index kFirstSamples = 64;
-constexpr Eigen::Index kOversampling = 8;
+constexpr Eigen::Index kProbes = 8;  ///< samples that only tell the error
+constexpr double kMargin = 0.5;      ///< samples know a direction's weight to about a factor of two
 
 FloatMatrix product(const FloatMap& a, const FloatMap& b) {
   FloatMatrix c = FloatMatrix::Zero(a.rows(), b.cols());
@@ -26,6 +27,9 @@ FloatMatrix product(const FloatMap& a, const FloatMap& b) {
 }
 
 FloatMap map(const FloatMatrix& m) {
+  return FloatMap(m.data(), m.rows(), m.cols());
+}
+FloatMap map(const Eigen::Block<const FloatMatrix, Eigen::Dynamic, Eigen::Dynamic, true>& m) {
   return FloatMap(m.data(), m.rows(), m.cols());
 }
 
@@ -42,12 +46,6 @@ FloatMap random_signs(Eigen::Index rows, Eigen::Index columns) {
   return FloatMap(signs.data(), rows, columns);
 }
 
-/// Directions that the columns of a matrix span, sorted by what they carry.
-struct Directions {
-  FloatMatrix basis;   ///< orthonormal
-  double dropped = 0;  ///< what was left out carries, squared; an estimate
-};
-
 /// Eigenvalues and eigenvectors of a symmetric matrix, the largest first.
 struct Spectrum {
   explicit Spectrum(const Eigen::MatrixXd& gram) {
@@ -55,17 +53,15 @@ struct Spectrum {
     values = solver.eigenvalues().reverse().cwiseMax(0.0);
     vectors = solver.eigenvectors().rowwise().reverse();
   }
-  Eigen::Index count_above(double least) const {
-    return (values.array() >= least).count();
-  }
+  Eigen::Index count_above(double least) const { return (values.array() >= least).count(); }
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
 };
 
-Eigen::MatrixXd gram(const FloatMatrix& columns) {
-  const Eigen::MatrixXd wide = columns.cast<double>();
+/// a^T a in double precision.
+Eigen::MatrixXd gram(const FloatMatrix& a) {
+  const Eigen::MatrixXd wide = a.cast<double>(), transposed = wide.transpose();
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(wide.cols(), wide.cols());
-  const Eigen::MatrixXd transposed = wide.transpose();
   gemm<double>(static_cast<int>(out.rows()), static_cast<int>(out.cols()),
                static_cast<int>(wide.rows()), 1.0, transposed.data(),
                static_cast<int>(transposed.rows()), wide.data(), static_cast<int>(wide.rows()),
@@ -73,29 +69,50 @@ Eigen::MatrixXd gram(const FloatMatrix& columns) {
   return out;
 }
 
-/// Samples are products with random signs: a direction that carries sigma is in `count` of them
-/// with sqrt(count) sigma.
+/// Directions that the columns of a matrix span, sorted by what they carry.
+struct Directions {
+  FloatMatrix basis;      ///< orthonormal
+  FloatMatrix projected;  ///< basis^T times the matrix
+  double dropped = 0;     ///< what was left out carries, squared; partly an estimate
+};
+
+/// Turns a basis and what is projected onto it so that its directions are the principal ones, and
+/// drops those that carry less than `least`.
+Directions principal(FloatMatrix basis, FloatMatrix projected, double least) {
+  const Spectrum spectrum(gram(projected.transpose()));
+  const Eigen::Index kept = spectrum.count_above(least * least);
+  const FloatMatrix turn = spectrum.vectors.leftCols(kept).cast<float>();
+  const FloatMatrix turn_back = turn.transpose();
+  Directions out;
+  out.basis = basis.size() == 0 ? turn : product(map(basis), map(turn));
+  out.projected = product(map(turn_back), map(projected));
+  out.dropped = spectrum.values.tail(spectrum.values.size() - kept).sum();
+  return out;
+}
+
+/// A direction that carries sigma is in `count` products with random signs with sqrt(count) sigma.
 Directions find_directions(const FloatMatrix& stacked, double least) {
-  const Eigen::Index m = stacked.rows(), width = stacked.cols();
+  const Eigen::Index m = stacked.rows();
   for (Eigen::Index count = kFirstSamples;; count *= 2) {
-    const double limit = least * least * static_cast<double>(count);
-    if (count >= m) {  // the samples tell about every direction
-      count = std::min(m + kOversampling, width);
-      const FloatMatrix samples =
-          count < width ? product(map(stacked), random_signs(width, count)) : stacked;
-      const double scale = count < width ? static_cast<double>(count) : 1;
-      const Spectrum spectrum(gram(samples.transpose()) / scale);
-      const Eigen::Index kept = spectrum.count_above(least * least);
-      return {spectrum.vectors.leftCols(kept).cast<float>(), spectrum.values.tail(m - kept).sum()};
-    }
-    const FloatMatrix samples = product(map(stacked), random_signs(width, count));
-    const Spectrum spectrum(gram(samples));
-    const Eigen::Index kept = spectrum.count_above(limit);
-    if (kept + kOversampling > count) continue;
-    const FloatMatrix turn = spectrum.vectors.leftCols(kept).cast<float>();
-    const Eigen::HouseholderQR<FloatMatrix> qr(product(map(samples), map(turn)));
-    return {qr.householderQ() * FloatMatrix::Identity(m, kept),
-            spectrum.values.tail(count - kept).sum() / static_cast<double>(count)};
+    if (4 * count > 3 * m) return principal({}, stacked, least);
+    const FloatMatrix samples =
+        product(map(stacked), random_signs(stacked.cols(), count + kProbes));
+    const Spectrum spectrum(gram(samples.leftCols(count)));
+    const double limit = kMargin * least;
+    const Eigen::Index rank = spectrum.count_above(limit * limit * static_cast<double>(count));
+    if (3 * rank > 2 * count) continue;
+    if (rank == 0) return {FloatMatrix(m, 0), FloatMatrix(0, stacked.cols()),
+                           samples.cast<double>().squaredNorm() / static_cast<double>(count)};
+    const FloatMatrix turn = spectrum.vectors.leftCols(rank).cast<float>();
+    const Eigen::HouseholderQR<FloatMatrix> qr(product(map(samples.leftCols(count)), map(turn)));
+    FloatMatrix basis = qr.householderQ() * FloatMatrix::Identity(m, rank);
+    const FloatMatrix transposed = basis.transpose();
+    // further samples tell what the basis leaves
+    FloatMatrix probes = samples.rightCols(kProbes);
+    probes -= basis * (transposed * probes);
+    Directions out = principal(std::move(basis), product(map(transposed), map(stacked)), least);
+    out.dropped += probes.cast<double>().squaredNorm() / kProbes;
+    return out;
   }
 }
 
@@ -121,15 +138,11 @@ BlockFactors factor_block(const std::vector<MatrixView<float>>& matrices, double
   out.squared_error = outputs.dropped;
   const Eigen::Index p = out.output_basis.cols();
   if (p > 0) {
-    const FloatMatrix transposed = out.output_basis.transpose();
-    const FloatMatrix rows = transposed_each(product(map(transposed), map(stacked)), count);
-    Directions inputs = find_directions(rows, least);
+    Directions inputs = find_directions(transposed_each(outputs.projected, count), least);
     out.input_basis = std::move(inputs.basis);
     out.squared_error += inputs.dropped;
-    const FloatMatrix to_inputs = out.input_basis.transpose();
-    const FloatMatrix coupling = product(map(to_inputs), map(rows));  // C_k^T side by side
-    for (Eigen::Index k = 0; k < count; ++k)
-      out.coupling.emplace_back(coupling.middleCols(k * p, p).transpose());
+    for (Eigen::Index k = 0; k < count; ++k)  // side by side are the C_k^T
+      out.coupling.emplace_back(inputs.projected.middleCols(k * p, p).transpose());
   } else {
     out.input_basis.resize(n, 0);
     out.coupling.assign(matrices.size(), FloatMatrix(0, 0));

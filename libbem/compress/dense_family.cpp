@@ -6,6 +6,31 @@
 #include <algorithm>
 
 namespace bem {
+namespace {
+
+/// Calls multiply(matrix, inputs, products) with all inputs of a matrix side by side, matrix by
+/// matrix, and adds the products to the outputs.
+template <class F>
+void for_each_matrix(const std::vector<FamilyTerm>& unsorted, std::size_t input_size,
+                     std::size_t output_size, const std::vector<double*>& outputs,
+                     const F& multiply) {
+  const std::vector<FamilyTerm> terms = sorted_by_matrix(unsorted);
+  const auto n = static_cast<Eigen::Index>(input_size), m = static_cast<Eigen::Index>(output_size);
+  for (auto first = terms.begin(); first != terms.end();) {
+    const auto last = std::find_if(
+        first, terms.end(), [&](const FamilyTerm& t) { return t.matrix != first->matrix; });
+    const Eigen::Index count = last - first;
+    Eigen::MatrixXd inputs(n, count), products = Eigen::MatrixXd::Zero(m, count);
+    for (Eigen::Index c = 0; c < count; ++c)
+      inputs.col(c) = first[c].factor * Eigen::Map<const Eigen::VectorXd>(first[c].input, n);
+    multiply(first->matrix, inputs, products);
+    for (Eigen::Index c = 0; c < count; ++c)
+      Eigen::Map<Eigen::VectorXd>(outputs[first[c].output], m) += products.col(c);
+    first = last;
+  }
+}
+
+}  // namespace
 
 template <class T>
 DenseFamily<T>::DenseFamily(std::size_t size, int count) {
@@ -13,23 +38,13 @@ DenseFamily<T>::DenseFamily(std::size_t size, int count) {
 }
 
 template <class T>
-void DenseFamily<T>::multiply_add(const std::vector<FamilyTerm>& unsorted,
+void DenseFamily<T>::multiply_add(const std::vector<FamilyTerm>& terms,
                                   const std::vector<double*>& outputs) const {
-  const std::vector<FamilyTerm> terms = sorted_by_matrix(unsorted);
-  const auto n = static_cast<Eigen::Index>(columns()), m = static_cast<Eigen::Index>(rows());
-  for (auto first = terms.begin(); first != terms.end();) {
-    const auto last = std::find_if(first, terms.end(), [&](const FamilyTerm& t) {
-      return t.matrix != first->matrix;
-    });
-    const Eigen::Index count = last - first;
-    Eigen::MatrixXd inputs(n, count), products = Eigen::MatrixXd::Zero(m, count);
-    for (Eigen::Index c = 0; c < count; ++c)
-      inputs.col(c) = first[c].factor * Eigen::Map<const Eigen::VectorXd>(first[c].input, n);
-    matrices_[first->matrix].multiply_add(inputs.data(), products.data(), static_cast<int>(count));
-    for (Eigen::Index c = 0; c < count; ++c)
-      Eigen::Map<Eigen::VectorXd>(outputs[first[c].output], m) += products.col(c);
-    first = last;
-  }
+  for_each_matrix(terms, columns(), rows(), outputs,
+                  [&](int matrix, const Eigen::MatrixXd& inputs, Eigen::MatrixXd& products) {
+                    matrices_[matrix].multiply_add(inputs.data(), products.data(),
+                                                   static_cast<int>(inputs.cols()));
+                  });
 }
 
 template <class T>
@@ -46,12 +61,11 @@ void DenseFamily<T>::multiply_add(const std::vector<SparseTerm>& terms,
 template <class T>
 void DenseFamily<T>::multiply_transposed_add(const std::vector<FamilyTerm>& terms,
                                              const std::vector<double*>& outputs) const {
-  for (const FamilyTerm& t : terms) {
-    const Eigen::VectorXd x =
-        t.factor *
-        Eigen::Map<const Eigen::VectorXd>(t.input, static_cast<Eigen::Index>(rows()));
-    matrices_[t.matrix].multiply_transposed_add(x.data(), outputs[t.output]);
-  }
+  for_each_matrix(terms, rows(), columns(), outputs,
+                  [&](int matrix, const Eigen::MatrixXd& inputs, Eigen::MatrixXd& products) {
+                    matrices_[matrix].multiply_transposed_add(inputs.data(), products.data(),
+                                                              static_cast<int>(inputs.cols()));
+                  });
 }
 
 template <class T>

@@ -48,12 +48,16 @@ void DenseStore<T>::multiply_add_columns(const std::vector<int>& columns, const 
 }
 
 template <class T>
-void DenseStore<T>::multiply_transposed_add(const double* x, double* y) const {
+void DenseStore<T>::multiply_transposed_add(const double* x, double* y, int count) const {
   parallel_for(tiles(columns_), [&](std::size_t tile) {
-    const std::size_t begin = tile * kTile, end = std::min(columns_, begin + kTile);
+    const std::size_t begin = tile * kTile, width = std::min(columns_, begin + kTile) - begin;
     for (std::size_t i = 0; i < rows_; ++i) {
-      const T* entries = row(i);
-      for (std::size_t j = begin; j < end; ++j) y[j] += entries[j] * x[i];
+      const T* entries = row(i) + begin;
+      for (int c = 0; c < count; ++c) {
+        const double factor = x[static_cast<std::size_t>(c) * rows_ + i];
+        double* sums = y + static_cast<std::size_t>(c) * columns_ + begin;
+        for (std::size_t j = 0; j < width; ++j) sums[j] += entries[j] * factor;
+      }
     }
   });
 }

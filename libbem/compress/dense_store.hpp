@@ -24,8 +24,8 @@ class DenseStore {
   void multiply_add(const double* x, double* y, int count) const;
   /// y += A(:, columns) x for an x with one entry per column.
   void multiply_add_columns(const std::vector<int>& columns, const double* x, double* y) const;
-  /// y += A^T x.
-  void multiply_transposed_add(const double* x, double* y) const;
+  /// y_c += A^T x_c for `count` right-hand sides x + c*rows(), y + c*columns().
+  void multiply_transposed_add(const double* x, double* y, int count) const;
   /// Entries at the crossings of some rows and columns.
   Eigen::MatrixXd block(const std::vector<int>& rows, const std::vector<int>& columns) const;
 

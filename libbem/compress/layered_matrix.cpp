@@ -26,6 +26,12 @@ struct Rectangle {
 
 constexpr std::size_t kWidths[3] = {4, 2, 1};
 
+/// The nearest integer of a number whose size is below 2^22.
+float rounded(float x) {
+  constexpr float kShift = 12582912;  // 1.5 * 2^23: its last bit is worth one
+  return (x + kShift) - kShift;
+}
+
 /// Calls f for every rectangle that is not empty, in the order of the data; returns its bytes.
 template <class F>
 std::size_t for_each_rectangle(const Layers& layers, const F& f) {
@@ -54,7 +60,7 @@ void store(const Rectangle& part, FloatMatrix& entries, std::uint8_t* out) {
   for (int j = part.column; j < part.column + part.columns; ++j)
     for (int i = part.row; i < part.row + part.rows; ++i) {
       const float value = entries(i, j);
-      *to = static_cast<T>(std::is_integral_v<T> ? std::nearbyint(value) : value);
+      *to = static_cast<T>(std::is_integral_v<T> ? rounded(value) : value);
       entries(i, j) -= static_cast<float>(*to++);
     }
 }
@@ -100,15 +106,18 @@ std::size_t Layers::bytes() const {
 }
 
 Layers fit_layers(const FloatMatrix& entries) {
-  constexpr float kMost[3] = {32767, 127, 0};  // of what narrower layers hold
+  constexpr float kMost[3] = {32767.5F, 127.5F, 0.5F};  // round to what narrower layers hold
   Layers layers;
   for (int layer = 0; layer < 3; ++layer) {
     Eigen::Index rows = 0, columns = 0;
     for (Eigen::Index j = 0; j < entries.cols(); ++j) {
       Eigen::Index last = entries.rows();
-      while (last > 0 && std::nearbyint(std::abs(entries(last - 1, j))) <= kMost[layer]) --last;
-      if (last == 0) continue;
-      rows = std::max(rows, last);
+      // a column that adds no rows is of interest only if it has anything at all
+      while (last > rows && std::abs(entries(last - 1, j)) < kMost[layer]) --last;
+      if (last == rows &&
+          (entries.col(j).head(rows).array().abs() < kMost[layer]).all())
+        continue;
+      rows = last;
       columns = j + 1;
     }
     layers.rows[layer] = extent(rows);

@@ -34,21 +34,20 @@ std::vector<int> unknowns_of(const std::vector<int>& nodes) {
   return unknowns;
 }
 
-TractionData extract_tractions(std::shared_ptr<const BodyModel> model,
-                               const std::vector<int>& nodes) {
-  require(model->g && !model->traction_response.empty(), "traction matrices are in memory");
+TractionData extract_tractions(const BodyModel& model, const std::vector<int>& nodes) {
+  require(model.g && !model.traction_response.empty(), "traction matrices are in memory");
   const std::vector<int> columns = unknowns_of(nodes);
   const auto pick = [&](const MatrixFamily& family) -> std::shared_ptr<const MatrixFamily> {
     if (dynamic_cast<const DenseFamily<float>*>(&family))
       return pick_columns<float>(family, columns);
     if (dynamic_cast<const DenseFamily<double>*>(&family))
       return pick_columns<double>(family, columns);
-    return {model, &family};  // compressed ones are used as a whole
+    return {std::shared_ptr<const void>(), &family};
   };
   TractionData data;
   data.nodes = nodes;
-  data.lags = pick(*model->g);
-  for (const auto& m : model->traction_response) data.response.push_back(pick(*m));
+  data.lags = pick(*model.g);
+  for (const auto& m : model.traction_response) data.response.push_back(pick(*m));
   return data;
 }
 

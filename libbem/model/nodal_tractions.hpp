@@ -11,8 +11,9 @@ struct TractionData {
   std::vector<std::shared_ptr<const MatrixFamily>> response;  ///< H_0^{-1} G_0
 };
 
-/// Columns of a model whose traction matrices are in memory.
-TractionData extract_tractions(std::shared_ptr<const BodyModel> model, const std::vector<int>& nodes);
+/// Columns of a model whose traction matrices are in memory. Compressed ones are not copied: the
+/// model has to outlive the result.
+TractionData extract_tractions(const BodyModel& model, const std::vector<int>& nodes);
 
 /// Tractions at some nodes during a step.
 struct NodalLoad {

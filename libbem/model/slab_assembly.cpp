@@ -67,39 +67,35 @@ void SlabAssembler<T>::assemble_tiles(int first, int last, MatrixSlab<T>& slab) 
   residual_ = std::max(residual_, *std::max_element(residuals.begin(), residuals.end()));
 }
 
+/// Moves a tile of nodes from rows of lanes to lanes of rows. For each of its columns the lanes are
+/// read once, and every lane gets a contiguous piece of a column.
 template <class T>
 template <class S>
 void SlabAssembler<T>::distribute(int first, const std::vector<BlockRow<S>>& rows, int count,
                                   MatrixSlab<T>& slab) const {
-  const int row = 3 * (first - slab.first);
-  for (int lane = 0; lane < layout_.initial; ++lane)
-    copy_lane(lane, rows, count, row, slab.initial_h[lane],
-              tractions_ ? &slab.initial_g[lane] : nullptr);
-  for (int lane = layout_.initial; lane < layout_.count(); ++lane)
-    copy_lane(lane, rows, count, row, slab.h[lane - layout_.initial],
-              tractions_ ? &slab.g[lane - layout_.initial] : nullptr);
-}
-
-/// One lane of a tile of nodes, written column by column: pieces of columns are contiguous.
-template <class T>
-template <class S, class To>
-void SlabAssembler<T>::copy_lane(int lane, const std::vector<BlockRow<S>>& rows, int count, int row,
-                                 To& h, To* g) const {
-  using Entry = typename To::Scalar;
-  const int n = static_cast<int>(model_.nodes());
+  const int n = static_cast<int>(model_.nodes()), row = 3 * (first - slab.first);
+  const auto write = [&](const S* const* from, int j, std::vector<Eigen::MatrixXd>& initial,
+                         std::vector<typename MatrixSlab<T>::Matrix>& lags) {
+    for (int lane = 0; lane < layout_.initial; ++lane) {
+      double* to = &initial[lane](row, j);
+      for (int r = 0; r < 3 * count; ++r) to[r] = static_cast<double>(from[r][lane]);
+    }
+    for (int lane = layout_.initial; lane < layout_.count(); ++lane) {
+      T* to = &lags[lane - layout_.initial](row, j);
+      for (int r = 0; r < 3 * count; ++r) to[r] = static_cast<T>(from[r][lane]);
+    }
+  };
   for (int j = 0; j < n; ++j)
     for (int c = 0; c < 3; ++c) {
-      Entry* to_h = &h(row, 3 * j + c);
+      const S* h[3 * kTileNodes];
+      const S* g[3 * kTileNodes];
       for (int v = 0; v < count; ++v)
-        for (int r = 0; r < 3; ++r)
-          *to_h++ = static_cast<Entry>(
-              rows[v].h_block(j)[(3 * r + c) * rows[v].padded_lanes + lane]);
-      if (!g) continue;
-      Entry* to_g = &(*g)(row, 3 * j + c);
-      for (int v = 0; v < count; ++v)
-        for (int r = 0; r < 3; ++r)
-          *to_g++ = static_cast<Entry>(
-              rows[v].g_block(j)[kSymmetric[3 * r + c] * rows[v].padded_lanes + lane]);
+        for (int r = 0; r < 3; ++r) {
+          h[3 * v + r] = rows[v].h_block(j) + (3 * r + c) * rows[v].padded_lanes;
+          g[3 * v + r] = rows[v].g_block(j) + kSymmetric[3 * r + c] * rows[v].padded_lanes;
+        }
+      write(h, 3 * j + c, slab.initial_h, slab.h);
+      if (tractions_) write(g, 3 * j + c, slab.initial_g, slab.g);
     }
 }
 

@@ -54,9 +54,6 @@ class SlabAssembler {
   template <class S>
   void distribute(int first, const std::vector<BlockRow<S>>& rows, int count,
                   MatrixSlab<T>& slab) const;
-  template <class S, class To>
-  void copy_lane(int lane, const std::vector<BlockRow<S>>& rows, int count, int row, To& h,
-                 To* g) const;
   void distribute_body_force(int node, const AlignedVector<double>& d,
                              const AlignedVector<double>& q, int padded_lanes);
 

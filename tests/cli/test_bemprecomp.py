@@ -101,15 +101,16 @@ class Usage(CliCase):
             (["--window", "off"], "--window"),
             (["--model", "static"], "not supported yet"), (["--model", "soft"], "does not know"),
             (["--model", "x"], "--model"),
-            (["--codec", "haar"], "not supported yet"), (["--codec", "lowrank"], "not supported"),
-            (["--codec", "zip"], "--codec"), (["--codec-tol", "1e-3"], "--codec"),
+            (["--codec", "haar"], "not supported yet"), (["--precision", "float64"], "--codec none"),
+            (["--codec", "zip"], "--codec"), (["--codec", "none", "--codec-tol", "1e-3"], "--codec lowrank"),
+            (["--codec-tol", "1e-9"], "--codec-tol"),
             (["--compression-ratio", "4"], "haar"),
             (["--corner-angle-deg", "40"], "not supported yet"),
             (["--damping", "0.1"], "not supported yet"), (["--damping"], "not supported yet"),
             (["--history", "0"], "--history"), (["--history-tol", "2"], "--history-tol"),
             (["--history", "9", "--history-tol", "1e-3"], "--history-tol"),
             (["--quadrature-tol", "0"], "--quadrature-tol"), (["--mesh-scale", "0"], "--mesh-scale"),
-            (["--threads", "0"], "--threads"), (["--precision", "float16"], "float32"),
+            (["--threads", "0"], "--threads"), (["--codec", "none", "--precision", "float16"], "float32"),
             (["--thread", "1"], "did you mean --threads?"), (["--dtt=1"], "did you mean --dt"),
             (["-q", "-v"], "--quiet"), (["--json"], "--info"), (["third.obj"], "third.obj"),
             (["--log-file", "sphere.obj"], "sphere.obj"), (["--stats", "rubber.json"], "rubber"),
@@ -272,7 +273,7 @@ class Resources(CliCase):
 
     def test_too_large_a_problem_is_refused_before_it_starts(self):
         start = time.monotonic()
-        done = self.precompute("--history", "100000", "--precision", "float64", "--scheme",
+        done = self.precompute("--history", "100000", "--codec", "none", "--precision", "float64", "--scheme",
                                "radau2", code=6)
         self.assert_error(done, "memory", "GB")
         self.assertLess(time.monotonic() - start, 10)

@@ -155,7 +155,7 @@ class Archives(DamageCase):
 
     def sections(self):
         """Some place in every part of the file: the text in front, HDF5's own data, all datasets."""
-        places = {"text": 3, "version": self.good.index(b"version: 1") + 9, "padding": 4000, "signature": 4097,
+        places = {"text": 3, "version": self.good.index(b"version: 2") + 9, "padding": 4000, "signature": 4097,
                   "superblock": 4110, "last byte": len(self.good) - 1}
         with h5py.File(self.folder / "a.bem") as archive:
             def visit(name, item):
@@ -182,7 +182,7 @@ class Archives(DamageCase):
         for content, part in [(b"", "empty"), (b"hello\n", "not an archive"), (b"\0" * 10000, "not an archive"),
                               (random.Random(3).randbytes(20000), "not an archive"),
                               (self.good[4096:], "HDF5"), ((self.folder / "foreign.h5").read_bytes(), "not an archive"),
-                              (self.good.replace(b"format version: 1\n", b"format version: 9\n"), "version 9")]:
+                              (self.good.replace(b"format version: 2\n", b"format version: 9\n"), "version 9")]:
             with self.subTest(part=part):
                 self.check_bytes(content, part)
 

@@ -22,7 +22,8 @@ inline bem::BodyGeometry small_body() {
 
 /// A complete model that takes a fraction of a second to compute.
 inline bem::BodyModel small_model(const std::string& scheme = "radau2",
-                                  bem::Precision precision = bem::Precision::float32) {
+                                  bem::Precision precision = bem::Precision::float32,
+                                  bem::Codec codec = bem::Codec::none) {
   bem::PrecomputeOptions options;
   options.discretisation.material = material(1000, 1e5, 0.3);
   options.discretisation.material.time_step = 0.01;
@@ -30,6 +31,7 @@ inline bem::BodyModel small_model(const std::string& scheme = "radau2",
   options.discretisation.dt = 0.01;
   options.discretisation.history_length = 4;
   options.precision = precision;
+  options.codec.codec = codec;
   options.window = 0.99;
   options.measure_growth = false;
   return bem::precompute(small_body(), options);

@@ -2,7 +2,7 @@
 
 #include "model/body_model.hpp"
 
-#include <numeric>
+#include <cmath>
 
 namespace bem_test {
 
@@ -35,17 +35,13 @@ class FreeRecursion {
       : scheme_(model.discretisation.scheme),
         components_(model.components()),
         size_(static_cast<Eigen::Index>(3 * model.nodes())) {
-    std::vector<int> all(size_);
-    std::iota(all.begin(), all.end(), 0);
-    for (const bem::SpectralMatrix& m : model.inverse) {
-      Eigen::MatrixXcd inverse = m.real->extract_columns(all).cast<bem::Complex>();
-      if (m.imaginary) inverse.imag() = m.imaginary->extract_columns(all);
+    for (const auto& m : model.inverse) {
+      Eigen::MatrixXcd inverse = full_matrix(*m, 0).cast<bem::Complex>();
+      if (m->count() > 1) inverse.imag() = full_matrix(*m, 1);
       initial_.push_back(inverse.inverse());
     }
-    for (std::size_t i = 0; i < model.h.size(); ++i) {
-      const int lag = static_cast<int>(i) / components_ + 1;
-      lags_.push_back(std::pow(model.window, lag) * model.h[i]->extract_columns(all));
-    }
+    for (int i = 0; i < model.h->count(); ++i)
+      lags_.push_back(std::pow(model.window, i / components_ + 1) * full_matrix(*model.h, i));
   }
 
   Eigen::MatrixXcd operator()(bem::Complex z) const {

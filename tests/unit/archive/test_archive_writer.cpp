@@ -102,7 +102,7 @@ TEST_CASE("Targets that cannot be written are refused before any work") {
 TEST_CASE("Only complete models are archived") {
   const test::TemporaryFolder folder("incomplete");
   BodyModel model = small_model("bdf1");
-  model.g.pop_back();
+  model.g.reset();
   CHECK(error_of([&] { write_archive(folder / "a.bem", model, {}, false); }).first == 1);
   CHECK(files_in(folder.path()) == 0);
 }

@@ -1,5 +1,7 @@
 #include "base/parallel.hpp"
-#include "compress/stored_matrix.hpp"
+#include "compress/dense_store.hpp"
+
+#include <numeric>
 
 #include <catch2/catch.hpp>
 #include <hwy/highway.h>
@@ -63,12 +65,20 @@ TEST_CASE("products are bit-identical for any number of threads and right-hand s
   CHECK(results[0] == one_by_one);
 }
 
-TEST_CASE("columns can be extracted") {
-  DenseStore<double> m(5, 9);
+TEST_CASE("transposed products, sparse products and blocks agree with the entries") {
+  DenseStore<double> m(40, 600);
   fill(m);
-  const Eigen::MatrixXd columns = m.extract_columns({8, 0});
-  for (int i = 0; i < 5; ++i) {
-    CHECK(columns(i, 0) == m.row(i)[8]);
-    CHECK(columns(i, 1) == m.row(i)[0]);
-  }
+  std::vector<int> rows(40), columns(600);
+  std::iota(rows.begin(), rows.end(), 0);
+  std::iota(columns.begin(), columns.end(), 0);
+  const Eigen::MatrixXd entries = m.block(rows, columns);
+  CHECK(entries(7, 599) == m.row(7)[599]);
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Random(40, 3);
+  Eigen::MatrixXd y = Eigen::MatrixXd::Ones(600, 3);
+  m.multiply_transposed_add(x.data(), y.data(), 3);
+  CHECK((y - entries.transpose() * x).isApproxToConstant(1, 1e-13));
+  const Eigen::VectorXd few = Eigen::VectorXd::Random(2);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(40);
+  m.multiply_add_columns({3, 598}, few.data(), sum.data());
+  CHECK((sum - entries.col(3) * few[0] - entries.col(598) * few[1]).norm() < 1e-14);
 }

@@ -1,0 +1,175 @@
+#include "base/parallel.hpp"
+#include "compress/low_rank_builder.hpp"
+#include "mesh/bisection.hpp"
+#include "mesh/shapes.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace bem;
+
+namespace {
+
+constexpr int kMatrices = 3;
+
+/// Matrices with the kind of entries that ours have: smooth functions of distance and direction, of
+/// other ranges from lag to lag, with large own blocks in the first.
+struct Example {
+  std::vector<Vec3> nodes;
+  std::vector<FloatMatrix> matrices;
+  double norm = 0;
+
+  explicit Example(int subdivisions) {
+    const std::vector<Vec3> points = icosphere(subdivisions, 1).vertices;
+    for (int i : bisection_order(points)) nodes.push_back(points[i]);
+    const auto n = static_cast<Eigen::Index>(nodes.size());
+    for (int k = 0; k < kMatrices; ++k) {
+      FloatMatrix m(3 * n, 3 * n);
+      for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j) {
+          const Vec3 r = nodes[j] - nodes[i];
+          const double decay = std::exp(-r.squaredNorm() * (k + 1));
+          const Mat3 block = decay * (Mat3::Identity() + r * r.transpose()) +
+                             (k == 0 && i == j ? 5.0 : 0.0) * Mat3::Identity();
+          m.block<3, 3>(3 * i, 3 * j) = block.cast<float>();
+        }
+      norm += m.cast<double>().squaredNorm();
+      matrices.push_back(std::move(m));
+    }
+    norm = std::sqrt(norm);
+  }
+
+  std::unique_ptr<MatrixFamily> compress(double tolerance, double* error = nullptr) const {
+    const std::size_t size = 3 * nodes.size();
+    LowRankBuilder builder(make_partition(nodes, {20, 64, 2.0}), kMatrices,
+                           LowRankBuilder::quantum_for(tolerance, norm, size, kMatrices));
+    for (const Slab& slab : builder.partition()) {
+      std::vector<MatrixView<float>> rows;
+      for (const FloatMatrix& m : matrices)
+        rows.emplace_back(m.data() + 3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin),
+                          m.cols(), Eigen::OuterStride<>(m.rows()));
+      builder.add_rows(rows);
+    }
+    if (error) *error = builder.error() / norm;
+    return builder.finish();
+  }
+
+  double error_of(const MatrixFamily& family) const {
+    double sum = 0;
+    for (int k = 0; k < kMatrices; ++k)
+      sum += (full_matrix(family, k) - matrices[k].cast<double>()).squaredNorm();
+    return std::sqrt(sum) / norm;
+  }
+};
+
+const Example& sphere() {
+  static const Example example(3);
+  return example;
+}
+
+Eigen::MatrixXd products(const MatrixFamily& family, const Eigen::MatrixXd& x, int outputs) {
+  Eigen::MatrixXf coefficients(static_cast<Eigen::Index>(family.coefficients()), x.cols());
+  Eigen::MatrixXd y = Eigen::MatrixXd::Ones(x.rows(), outputs);
+  std::vector<FamilyTerm> terms;
+  std::vector<double*> out;
+  for (int o = 0; o < outputs; ++o) out.push_back(y.col(o).data());
+  for (int c = 0; c < static_cast<int>(x.cols()); ++c) {
+    family.analyse(x.col(c).data(), coefficients.col(c).data());
+    terms.push_back({c % kMatrices, x.col(c).data(), coefficients.col(c).data(), c % outputs, 0.5});
+  }
+  family.multiply_add(terms, out);
+  return y;
+}
+
+}  // namespace
+
+TEST_CASE("the error of the matrices is about the tolerance, and the builder knows it") {
+  std::size_t last = 0;
+  for (double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    double reported = 0;
+    const auto family = sphere().compress(tolerance, &reported);
+    const double error = sphere().error_of(*family);
+    CAPTURE(tolerance, error, reported, family->bytes());
+    CHECK(error < 2.5 * tolerance);
+    CHECK(error > 0.3 * tolerance);
+    CHECK(reported == Approx(error).epsilon(0.05));
+    CHECK(family->bytes() > last);
+    last = family->bytes();
+  }
+  const std::size_t dense = 4 * kMatrices * sphere().matrices[0].size();
+  CHECK(sphere().compress(1e-4)->bytes() < dense / 4);
+}
+
+TEST_CASE("products, sparse, transposed and left products agree with the entries") {
+  const auto family = sphere().compress(1e-3);
+  const auto n = static_cast<Eigen::Index>(family->rows());
+  std::vector<Eigen::MatrixXd> full;
+  for (int k = 0; k < kMatrices; ++k) full.push_back(full_matrix(*family, k));
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Random(n, 2 * kMatrices);
+
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Ones(n, 2);
+  for (int c = 0; c < 2 * kMatrices; ++c)
+    expected.col(c % 2) += 0.5 * full[c % kMatrices] * x.col(c);
+  CHECK((products(*family, x, 2) - expected).norm() < 3e-6 * expected.norm());
+
+  const std::vector<int> columns = {0, 4, 5, 700, static_cast<int>(n) - 1};
+  const Eigen::VectorXd values = Eigen::VectorXd::Random(5);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(n);
+  family->multiply_add(std::vector<SparseTerm>{{1, &columns, values.data(), 0, 2.0}}, {y.data()});
+  const Eigen::VectorXd sparse = 2 * full[1](Eigen::all, columns) * values;
+  CHECK((y - sparse).norm() < 3e-6 * sparse.norm());
+
+  y.setZero();
+  family->multiply_transposed_add({{0, x.col(0).data(), nullptr, 0, 1.0},
+                                   {2, x.col(1).data(), nullptr, 0, -3.0}},
+                                  {y.data()});
+  const Eigen::VectorXd transposed =
+      full[0].transpose() * x.col(0) - 3 * full[2].transpose() * x.col(1);
+  CHECK((y - transposed).norm() < 3e-6 * transposed.norm());
+
+  const FloatMatrix left = FloatMatrix::Random(150, n);
+  const Eigen::MatrixXd right =
+      dynamic_cast<const LowRankFamily&>(*family).multiply_left(left, 0).cast<double>();
+  CHECK((right - left.cast<double>() * full[0]).norm() < 3e-6 * right.norm());
+}
+
+TEST_CASE("sums of matrices and blocks of them") {
+  const auto family = sphere().compress(1e-3);
+  const auto sums = family->combine({{1, 1, 1}, {0, 2, -1}});
+  REQUIRE(sums->count() == 2);
+  const Eigen::MatrixXd all =
+      full_matrix(*family, 0) + full_matrix(*family, 1) + full_matrix(*family, 2);
+  CHECK((full_matrix(*sums, 0) - all).norm() < 1e-6 * all.norm());
+  const Eigen::MatrixXd other = 2 * full_matrix(*family, 1) - full_matrix(*family, 2);
+  CHECK((full_matrix(*sums, 1) - other).norm() < 1e-6 * other.norm());
+  const std::vector<int> rows = {900, 3, 4, 31}, columns = {1900, 2, 900};
+  const Eigen::MatrixXd expected = full_matrix(*family, 1)(rows, columns);
+  CHECK((family->block(1, rows, columns) - expected).norm() < 1e-6 * expected.norm());
+}
+
+TEST_CASE("compression and products are bit-identical for any number of threads") {
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Random(3 * sphere().nodes.size(), kMatrices);
+  std::vector<Eigen::MatrixXd> results;
+  std::vector<std::vector<std::uint8_t>> bytes;
+  for (int threads : {1, 2, 5}) {
+    set_thread_count(threads);
+    const auto family = sphere().compress(1e-4);
+    results.push_back(products(*family, x, 1));
+    bytes.push_back(dynamic_cast<const LowRankFamily&>(*family).slabs()[2].synthesis);
+  }
+  CHECK(results[0] == results[1]);
+  CHECK(results[0] == results[2]);
+  CHECK(bytes[0] == bytes[1]);
+  CHECK(bytes[0] == bytes[2]);
+}
+
+TEST_CASE("tiny bodies and vanishing matrices are compressed, too") {
+  const Example tetrahedron(0);
+  const auto family = tetrahedron.compress(1e-4);
+  CHECK(tetrahedron.error_of(*family) < 3e-4);
+  LowRankBuilder builder(make_partition(tetrahedron.nodes, {}), 1, 1e-6);
+  const FloatMatrix zeros = FloatMatrix::Zero(36, 36);
+  builder.add_rows({MatrixView<float>(zeros.data(), 36, 36, Eigen::OuterStride<>(36))});
+  const auto nothing = builder.finish();
+  CHECK(nothing->bytes() == 0);
+  CHECK(full_matrix(*nothing, 0).isZero(0));
+}
