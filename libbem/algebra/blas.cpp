@@ -41,6 +41,7 @@ void prepare_blas() {
 template <>
 void gemm(int m, int n, int k, double alpha, const double* a, int lda, const double* b, int ldb,
           double* c, int ldc) {
+  if (m == 0 || n == 0 || k == 0) return;
   prepare_blas();
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, n, k, alpha, a, lda, b, ldb, 1, c, ldc);
 }
@@ -48,6 +49,7 @@ void gemm(int m, int n, int k, double alpha, const double* a, int lda, const dou
 template <>
 void gemm(int m, int n, int k, float alpha, const float* a, int lda, const float* b, int ldb,
           float* c, int ldc) {
+  if (m == 0 || n == 0 || k == 0) return;
   prepare_blas();
   cblas_sgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, n, k, alpha, a, lda, b, ldb, 1, c, ldc);
 }

@@ -32,6 +32,8 @@ class Archive::Loading {
       if (is_traction(place) ? tractions : motion) total_ += bytes_of(place);
   }
 
+  double bytes() const { return total_; }
+
   std::unique_ptr<MatrixFamily> load(const FamilyPlace& place) {
     if (archive_.codec() == Codec::lowrank) return load_compressed(place, nullptr);
     return precision_ == Precision::float32 ? load_dense<float>(place) : load_dense<double>(place);
@@ -181,6 +183,16 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
   model.balance = load_balance(kBalancePath);
   model.traction_balance = load_balance(kTractionBalancePath);
   return model;
+}
+
+double Archive::matrix_bytes(bool tractions) const {
+  return kind_ == ModelKind::rigid ? 0 : Loading(*this, true, tractions, nullptr).bytes();
+}
+
+std::size_t Archive::history_coefficients() const {
+  if (codec_ == Codec::none) return 0;
+  const Hdf5Dims dims = file_.dims(lags_path("h") + "/input_scales");
+  return dims.empty() ? 0 : dims[0];
 }
 
 Eigen::MatrixXd Archive::load_balance(const std::string& path) const {

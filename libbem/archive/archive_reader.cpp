@@ -176,6 +176,12 @@ void Archive::read_report() {
   report_.rotation_residual = file_.double_attribute("/report", "rotation_residual");
   report_.condition = file_.double_attribute("/report", "condition");
   report_.growth = file_.double_attribute("/report", "growth");
+  if (!file_.has_attribute("/report", "codec_error_h")) return;  // format version 1
+  ModelReport::CodecErrors& e = report_.codec_errors;
+  e.h = file_.double_attribute("/report", "codec_error_h");
+  e.g = file_.double_attribute("/report", "codec_error_g");
+  e.inverse = file_.double_attribute("/report", "codec_error_inverse");
+  e.traction_response = file_.double_attribute("/report", "codec_error_traction_response");
 }
 
 void Archive::read_provenance() {

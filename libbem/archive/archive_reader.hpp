@@ -56,6 +56,11 @@ class Archive {
   /// One of the balance matrices at kBalancePath or kTractionBalancePath, 6 x unknowns.
   Eigen::MatrixXd load_balance(const std::string& path) const;
 
+  /// Bytes that the large matrices take in memory, those of motion alone or all of them.
+  double matrix_bytes(bool tractions) const;
+  /// Of one history of displacements: what the codec keeps besides them.
+  std::size_t history_coefficients() const;
+
   /// Reads all matrices and checks their extents and that every number is finite.
   void check_matrices(const Progress& progress = nullptr) const;
 

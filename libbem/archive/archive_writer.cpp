@@ -151,6 +151,10 @@ void write_report(Hdf5File& file, const ModelReport& r) {
   file.set_attribute("/report", "rotation_residual", r.rotation_residual);
   file.set_attribute("/report", "condition", r.condition);
   file.set_attribute("/report", "growth", r.growth);
+  file.set_attribute("/report", "codec_error_h", r.codec_errors.h);
+  file.set_attribute("/report", "codec_error_g", r.codec_errors.g);
+  file.set_attribute("/report", "codec_error_inverse", r.codec_errors.inverse);
+  file.set_attribute("/report", "codec_error_traction_response", r.codec_errors.traction_response);
 }
 
 void write_provenance(Hdf5File& file, const Provenance& p) {

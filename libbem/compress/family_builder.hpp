@@ -18,7 +18,7 @@ class FamilyBuilder {
   /// The next rows of every matrix. Uses all worker threads.
   virtual void add_rows(const std::vector<MatrixView<T>>& matrices) = 0;
   virtual std::unique_ptr<MatrixFamily> finish() = 0;
-  /// Frobenius norm of what the rows so far have lost, over all matrices.
+  /// Frobenius norm of what the rows so far have lost, over all matrices, relative to theirs.
   virtual double error() const = 0;
 };
 

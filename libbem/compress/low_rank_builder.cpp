@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace bem {
 namespace {
@@ -47,10 +48,39 @@ struct LowRankBuilder::Encoded {
 LowRankBuilder::LowRankBuilder(std::vector<Slab> partition, int count, double quantum)
     : partition_(std::move(partition)), count_(count), quantum_(quantum) {}
 
-double LowRankBuilder::quantum_for(double tolerance, double norm, std::size_t size, int count) {
-  constexpr double kQuanta = 9;  // of an entry's share in the error; measured
-  return kQuanta * tolerance * norm /
-         (static_cast<double>(size) * std::sqrt(static_cast<double>(count)));
+/// Of every `every`-th block.
+double LowRankBuilder::squared_error_of_blocks(const Slab& slab,
+                                               const std::vector<MatrixView<float>>& matrices,
+                                               double quantum, std::size_t every) {
+  const LowRankBuilder builder({slab}, static_cast<int>(matrices.size()), quantum);
+  const std::size_t blocks = (slab.blocks.size() + every - 1) / every;
+  std::vector<double> errors(blocks);
+  parallel_for(blocks, [&](std::size_t i) {
+    errors[i] = builder.encode(slab.blocks[every * i], slab.row_begin, matrices).squared_error;
+  });
+  return std::accumulate(errors.begin(), errors.end(), 0.0);
+}
+
+double LowRankBuilder::choose_quantum(const Slab& slab,
+                                      const std::vector<MatrixView<float>>& matrices,
+                                      double error) {
+  constexpr double kFirstGuess = 9;  // quanta: error of an entry that needs to be known well
+  constexpr int kTrials = 3;
+  constexpr std::size_t kFewBlocks = 12;
+  const auto size = static_cast<double>(matrices[0].cols());
+  const double entries = size * size * static_cast<double>(matrices.size());
+  const std::size_t every = std::max<std::size_t>(1, slab.blocks.size() / kFewBlocks);
+  double tried = 0;
+  for (std::size_t b = 0; b < slab.blocks.size(); b += every)
+    tried += 9.0 * slab.blocks[b].rows() * slab.blocks[b].columns() *
+             static_cast<double>(matrices.size());
+  double quantum = kFirstGuess * error / std::sqrt(entries);
+  for (int trial = 0; trial < kTrials && quantum > 0; ++trial) {
+    const double found = squared_error_of_blocks(slab, matrices, quantum, every);
+    if (found <= 0) break;
+    quantum *= std::clamp(error / std::sqrt(found / tried * entries), 0.1, 10.0);
+  }
+  return quantum > 0 ? quantum : 1;
 }
 
 void LowRankBuilder::encode_with_bases(const BlockFactors& factors, Encoded& out) const {
@@ -134,11 +164,14 @@ void LowRankBuilder::add_rows(const std::vector<MatrixView<float>>& matrices) {
     append(out.synthesis, e.synthesis);
     squared_error_ += e.squared_error;
   }
+  for (const MatrixView<float>& m : matrices)
+    for (Eigen::Index j = 0; j < m.cols(); ++j)
+      squared_norm_ += m.col(j).cast<double>().squaredNorm();
   slabs_.push_back(std::move(out));
 }
 
 double LowRankBuilder::error() const {
-  return std::sqrt(squared_error_);
+  return squared_norm_ > 0 ? std::sqrt(squared_error_ / squared_norm_) : 0;
 }
 
 std::unique_ptr<MatrixFamily> LowRankBuilder::finish() {

@@ -10,13 +10,14 @@ namespace bem {
 /// there at a time. Bit-identical for any number of threads.
 class LowRankBuilder : public FamilyBuilder<float> {
  public:
-  /// `partition`: of nodes, each of which has three unknowns. `quantum`: see quantum_for().
+  /// `partition`: of nodes, each of which has three unknowns. `quantum`: see choose_quantum().
   LowRankBuilder(std::vector<Slab> partition, int count, double quantum);
 
   const std::vector<Slab>& partition() const { return partition_; }
-  /// The unit of coupling entries with which the error of the whole family, over all its entries,
-  /// comes to about `tolerance` * `norm`, with `norm` the Frobenius norm of all its matrices.
-  static double quantum_for(double tolerance, double norm, std::size_t size, int count);
+  /// The unit of coupling entries with which the Frobenius norm of the errors of the whole family
+  /// comes to about `error`, by trial with some blocks of one slab: its rows of all matrices.
+  static double choose_quantum(const Slab& slab, const std::vector<MatrixView<float>>& matrices,
+                               double error);
 
   /// The rows of the next slab.
   void add_rows(const std::vector<MatrixView<float>>& matrices) override;
@@ -25,6 +26,9 @@ class LowRankBuilder : public FamilyBuilder<float> {
 
  private:
   struct Encoded;
+  static double squared_error_of_blocks(const Slab& slab,
+                                        const std::vector<MatrixView<float>>& matrices,
+                                        double quantum, std::size_t every);
   Encoded encode(const NodeBlock& block, int slab_begin,
                  const std::vector<MatrixView<float>>& matrices) const;
   void encode_with_bases(const BlockFactors& factors, Encoded& out) const;
@@ -33,7 +37,7 @@ class LowRankBuilder : public FamilyBuilder<float> {
   int count_;
   double quantum_;
   std::vector<LowRankSlab> slabs_;
-  double squared_error_ = 0;
+  double squared_error_ = 0, squared_norm_ = 0;
 };
 
 }  // namespace bem

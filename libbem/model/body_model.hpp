@@ -17,6 +17,10 @@ struct ModelReport {
   double rotation_residual = 0;  ///< of H_0 W = -s^2 Q_0, relative to |H_0| (M42)
   double condition = 0;          ///< |H_0|_1 |H_0^{-1}|_1
   double growth = 0;             ///< largest growth factor per step of the free body, window 1
+  /// What the codec has changed, relative Frobenius norms over all matrices of a kind.
+  struct CodecErrors {
+    double h = 0, g = 0, inverse = 0, traction_response = 0;
+  } codec_errors;
 };
 
 enum class ModelKind {

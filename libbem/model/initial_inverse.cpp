@@ -119,27 +119,36 @@ void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, const LowRankFamily
                        double tolerance, const Progress& progress) {
   const DenseMatrix<T> inverse =
       invert(model, factorise(std::move(h), progress), progress);
-  const auto size = static_cast<std::size_t>(inverse.rows());
-  const int count = std::is_same_v<T, Complex> ? 2 : 1;
   const std::vector<Slab> partition = make_partition(model.geometry.nodes.vertices, {});
-  const auto builder = [&](double norm) {
-    return LowRankBuilder(partition, count,
-                          LowRankBuilder::quantum_for(tolerance, norm, size, count));
+  const auto rows_of = [&](const Slab& slab) {
+    return parts(inverse, 3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin));
   };
-  LowRankBuilder inverse_builder = builder(inverse.norm());
+  const Slab& middle = partition[partition.size() / 2];
+  const std::vector<FloatMatrix> sample = rows_of(middle);
+  const auto builder = [&](const std::vector<FloatMatrix>& rows, double norm) {
+    return LowRankBuilder(
+        partition, static_cast<int>(rows.size()),
+        LowRankBuilder::choose_quantum(middle, views(rows), tolerance * norm));
+  };
+  LowRankBuilder inverse_builder = builder(sample, inverse.norm());
   std::unique_ptr<LowRankBuilder> response_builder;
-  if (g) response_builder = std::make_unique<LowRankBuilder>(builder(response_norm(inverse, *g)));
+  if (g)
+    response_builder = std::make_unique<LowRankBuilder>(
+        builder(times(sample, *g), response_norm(inverse, *g)));
   for (const Slab& slab : partition) {
     if (progress)
       progress("compressing the inverse",
-               static_cast<double>(3 * slab.row_begin) / static_cast<double>(size));
-    const std::vector<FloatMatrix> rows =
-        parts(inverse, 3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin));
+               3 * slab.row_begin / static_cast<double>(inverse.rows()));
+    const std::vector<FloatMatrix> rows = rows_of(slab);
     inverse_builder.add_rows(views(rows));
     if (g) response_builder->add_rows(views(times(rows, *g)));
   }
+  ModelReport::CodecErrors& errors = model.report.codec_errors;
   model.inverse.push_back(inverse_builder.finish());
-  if (g) model.traction_response.push_back(response_builder->finish());
+  errors.inverse = std::max(errors.inverse, inverse_builder.error());
+  if (!g) return;
+  model.traction_response.push_back(response_builder->finish());
+  errors.traction_response = std::max(errors.traction_response, response_builder->error());
 }
 
 }  // namespace

@@ -140,34 +140,69 @@ void compute_uncompressed(BodyModel& model, const PrecomputeOptions& options,
     invert_dense(model, std::move(h[i]), options.tractions ? &g[i] : nullptr, progress);
 }
 
+/// What the builders of a compressed model need to know before they see all rows, from a sample.
+class CompressedBuilders {
+ public:
+  CompressedBuilders(SlabAssembler<float>& assembler, const std::vector<Slab>& slabs,
+                     double tolerance)
+      : slabs_(slabs), slab_(slabs[slabs.size() / 2]), tolerance_(tolerance) {
+    norms_ = assembler.estimate_norms();
+    assembler.assemble(slab_.row_begin, slab_.row_end, sample_);
+  }
+
+  std::unique_ptr<LowRankBuilder> h() const { return builder(sample_.h, norms_.h, tolerance_); }
+  std::unique_ptr<LowRankBuilder> g() const { return builder(sample_.g, norms_.g, tolerance_); }
+  /// Of parts of G_0, which is an ingredient only: more accurate.
+  std::unique_ptr<LowRankBuilder> initial_g(int first, int count) const {
+    constexpr double kOfTolerance = 0.3;
+    std::vector<Eigen::MatrixXf> parts;
+    for (int i = first; i < first + count; ++i)
+      parts.emplace_back(sample_.initial_g[i].cast<float>());
+    return builder(parts, norms_.initial_g, kOfTolerance * tolerance_);
+  }
+
+ private:
+  std::unique_ptr<LowRankBuilder> builder(const std::vector<Eigen::MatrixXf>& sample, double norm,
+                                          double tolerance) const {
+    return std::make_unique<LowRankBuilder>(
+        slabs_, static_cast<int>(sample.size()),
+        LowRankBuilder::choose_quantum(slab_, views(sample), tolerance * norm));
+  }
+
+  const std::vector<Slab>& slabs_;
+  const Slab& slab_;
+  double tolerance_;
+  SlabAssembler<float>::Norms norms_;
+  MatrixSlab<float> sample_;
+};
+
 void compute_compressed(BodyModel& model, const PrecomputeOptions& options,
                         const Progress& progress) {
-  constexpr double kOfTolerance = 0.3;  // of G_0, which is an ingredient only
-  const double tolerance = options.codec.tolerance;
-  const std::size_t size = 3 * model.nodes();
   SlabAssembler<float> assembler(model, assembly_precision(options), options.tractions);
-  const auto norms = assembler.estimate_norms();
   const std::vector<Slab> slabs = make_partition(model.geometry.nodes.vertices, {});
-  const auto builder = [&](double part, double norm, int count) {
-    return std::make_unique<LowRankBuilder>(
-        slabs, count, LowRankBuilder::quantum_for(part * tolerance, norm, size, count));
-  };
   Builders<float> builders;
-  builders.h = builder(1, norms.h, assembler.lag_count());
-  if (options.tractions) {
-    builders.g = builder(1, norms.g, assembler.lag_count());
-    for (const InitialComponent& c : model.discretisation.scheme.initial_components())
-      builders.initial_g.push_back(builder(kOfTolerance, norms.initial_g, c.paired ? 2 : 1));
+  {
+    const CompressedBuilders sample(assembler, slabs, options.codec.tolerance);
+    builders.h = sample.h();
+    if (options.tractions) builders.g = sample.g();
+    if (options.tractions)
+      for_each_initial(model.discretisation.scheme, [&](std::size_t, int part, bool paired) {
+        builders.initial_g.push_back(sample.initial_g(part, paired ? 2 : 1));
+      });
   }
   std::vector<InitialMatrix> h = initial_matrices(model), none;
   assemble_all(assembler, model, slabs, builders, h, none, progress);
   model.h = builders.h->finish();
-  if (builders.g) model.g = builders.g->finish();
+  model.report.codec_errors.h = builders.h->error();
+  if (builders.g) {
+    model.g = builders.g->finish();
+    model.report.codec_errors.g = builders.g->error();
+  }
   for (std::size_t i = 0; i < h.size(); ++i) {
     std::unique_ptr<MatrixFamily> g;
     if (options.tractions) g = builders.initial_g[i]->finish();
     invert_compressed(model, std::move(h[i]), dynamic_cast<const LowRankFamily*>(g.get()),
-                      tolerance, progress);
+                      options.codec.tolerance, progress);
   }
 }
 

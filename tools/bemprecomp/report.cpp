@@ -51,7 +51,12 @@ Json report_json(const ModelReport& r) {
           {"row_sum_residual", r.row_sum_residual},
           {"rotation_residual", r.rotation_residual},
           {"condition", r.condition},
-          {"growth", r.growth}};
+          {"growth", r.growth},
+          {"codec_errors",
+           {{"h", r.codec_errors.h},
+            {"g", r.codec_errors.g},
+            {"inverse", r.codec_errors.inverse},
+            {"traction_response", r.codec_errors.traction_response}}}};
 }
 
 /// "name:   value" lines with aligned values.
@@ -127,6 +132,9 @@ void print_matrices(Table& table, const Archive& archive) {
                  : "");
   table.line("quadrature", "tolerance ", d.quadrature_tolerance, ", row sums repaired by ",
              r.row_sum_residual, ", rotation residual ", r.rotation_residual);
+  if (archive.codec() != Codec::none)
+    table.line("codec errors", "H ", r.codec_errors.h, ", G ", r.codec_errors.g, ", inverse ",
+               r.codec_errors.inverse, ", traction response ", r.codec_errors.traction_response);
   table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
              " without window), condition number ", r.condition);
 }

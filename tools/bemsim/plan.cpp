@@ -61,15 +61,12 @@ double memory_of(const std::vector<PlannedBody>& bodies, bool contact) {
     if (archive.kind() == ModelKind::rigid) continue;
     const Discretisation& d = archive.discretisation();
     const auto n = static_cast<double>(archive.unknowns());
-    const double entry = archive.precision() == Precision::float32 ? 4 : 8;
     const auto lag_columns = static_cast<double>(d.scheme.lag_components().size()) *
                              static_cast<double>(d.history_length);
     const auto initial = static_cast<double>(d.scheme.initial_components().size());
-    // half of an archive's matrices belong to surface loads: all of them are loaded where anything
-    // may be touched, else some columns
-    if (seen.insert(&archive).second)
-      bytes +=
-          static_cast<double>(archive.matrix_paths().size() / (contact ? 1 : 2)) * n * n * entry;
+    // matrices of surface loads are loaded as a whole where anything may be touched, else in part
+    if (seen.insert(&archive).second) bytes += archive.matrix_bytes(contact);
+    bytes += 4 * lag_columns * static_cast<double>(archive.history_coefficients());
     const double prescribed = 3 * static_cast<double>(body.fixed + body.handled);
     double inputs = 6 + 2 * prescribed;
     for (const TractionSpec& load : body.spec->tractions)
