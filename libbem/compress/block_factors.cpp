@@ -16,7 +16,7 @@ using FloatMap = Eigen::Map<const FloatMatrix>;
 
 constexpr Eigen::Index kFirstSamples = 64;
 constexpr Eigen::Index kProbes = 8;  ///< samples that only tell the error
-constexpr double kMargin = 0.5;      ///< samples know a direction's weight to about a factor of two
+constexpr double kMostLeft = 4;  ///< light directions that the samples may miss
 
 FloatMatrix product(const FloatMap& a, const FloatMap& b) {
   FloatMatrix c = FloatMatrix::Zero(a.rows(), b.cols());
@@ -27,9 +27,6 @@ FloatMatrix product(const FloatMap& a, const FloatMap& b) {
 }
 
 FloatMap map(const FloatMatrix& m) {
-  return FloatMap(m.data(), m.rows(), m.cols());
-}
-FloatMap map(const Eigen::Block<const FloatMatrix, Eigen::Dynamic, Eigen::Dynamic, true>& m) {
   return FloatMap(m.data(), m.rows(), m.cols());
 }
 
@@ -90,28 +87,23 @@ Directions principal(FloatMatrix basis, FloatMatrix projected, double least) {
   return out;
 }
 
-/// A direction that carries sigma is in `count` products with random signs with sqrt(count) sigma.
+/// The space of enough samples, products with random signs, holds all directions that count;
+/// further samples tell what it leaves.
 Directions find_directions(const FloatMatrix& stacked, double least) {
   const Eigen::Index m = stacked.rows();
-  for (Eigen::Index count = kFirstSamples;; count *= 2) {
+  for (Eigen::Index count = kFirstSamples;; count += count / 2) {
     if (4 * count > 3 * m) return principal({}, stacked, least);
     const FloatMatrix samples =
         product(map(stacked), random_signs(stacked.cols(), count + kProbes));
-    const Spectrum spectrum(gram(samples.leftCols(count)));
-    const double limit = kMargin * least;
-    const Eigen::Index rank = spectrum.count_above(limit * limit * static_cast<double>(count));
-    if (3 * rank > 2 * count) continue;
-    if (rank == 0) return {FloatMatrix(m, 0), FloatMatrix(0, stacked.cols()),
-                           samples.cast<double>().squaredNorm() / static_cast<double>(count)};
-    const FloatMatrix turn = spectrum.vectors.leftCols(rank).cast<float>();
-    const Eigen::HouseholderQR<FloatMatrix> qr(product(map(samples.leftCols(count)), map(turn)));
-    FloatMatrix basis = qr.householderQ() * FloatMatrix::Identity(m, rank);
+    const Eigen::HouseholderQR<FloatMatrix> qr(samples.leftCols(count));
+    FloatMatrix basis = qr.householderQ() * FloatMatrix::Identity(m, count);
     const FloatMatrix transposed = basis.transpose();
-    // further samples tell what the basis leaves
     FloatMatrix probes = samples.rightCols(kProbes);
     probes -= basis * (transposed * probes);
+    const double left = probes.cast<double>().squaredNorm() / kProbes;
+    if (left > kMostLeft * least * least) continue;
     Directions out = principal(std::move(basis), product(map(transposed), map(stacked)), least);
-    out.dropped += probes.cast<double>().squaredNorm() / kProbes;
+    out.dropped += left;
     return out;
   }
 }

@@ -49,15 +49,18 @@ void DenseStore<T>::multiply_add_columns(const std::vector<int>& columns, const 
 
 template <class T>
 void DenseStore<T>::multiply_transposed_add(const double* x, double* y, int count) const {
+  // rows of this matrix are columns of the transposed one; a tile stays in the cache
+  constexpr std::size_t kTileRows = 64;
   parallel_for(tiles(columns_), [&](std::size_t tile) {
     const std::size_t begin = tile * kTile, width = std::min(columns_, begin + kTile) - begin;
-    for (std::size_t i = 0; i < rows_; ++i) {
-      const T* entries = row(i) + begin;
-      for (int c = 0; c < count; ++c) {
-        const double factor = x[static_cast<std::size_t>(c) * rows_ + i];
-        double* sums = y + static_cast<std::size_t>(c) * columns_ + begin;
-        for (std::size_t j = 0; j < width; ++j) sums[j] += entries[j] * factor;
-      }
+    std::vector<const T*> pointers;
+    for (std::size_t first = 0; first < rows_; first += kTileRows) {
+      pointers.clear();
+      for (std::size_t i = first; i < std::min(rows_, first + kTileRows); ++i)
+        pointers.push_back(row(i));
+      for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c)
+        add_columns(pointers.data(), pointers.size(), begin, width, x + c * rows_ + first,
+                    y + c * columns_ + begin);
     }
   });
 }
