@@ -7,13 +7,16 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 quick=(bowl head-on chain twist self no-self lift bullet)
-large=(bunny-one bunny fish-1 fish-5 fish-25)
+large=(bunny-one bunny fish-1 fish-5)
+huge=(fish-25)
 
 usage="usage: scripts/contact_scenes.sh [--threads N] [NAME...|quick|large|all]
   quick   ${quick[*]}
           (seconds each; the default)
   large   ${large[*]}
           (minutes each, archives of 3 to 4 GB, 7 GB of memory)
+  all     both
+  NAME    one of these, or ${huge[*]} (hours, see docs/performance.md)
   --threads N  of bemsim (1)"
 
 fail() {
@@ -30,7 +33,7 @@ while [[ $# -gt 0 ]]; do
     quick) scenes+=("${quick[@]}") ;;
     large) scenes+=("${large[@]}") ;;
     all) scenes+=("${quick[@]}" "${large[@]}") ;;
-    *) [[ " ${quick[*]} ${large[*]} " == *" $1 "* ]] || fail 2 "unknown scene '$1'"$'\n'"$usage"; scenes+=("$1") ;;
+    *) [[ " ${quick[*]} ${large[*]} ${huge[*]} " == *" $1 "* ]] || fail 2 "unknown scene '$1'"$'\n'"$usage"; scenes+=("$1") ;;
   esac
   shift
 done
