@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 quick=(bowl head-on chain twist self no-self lift bullet)
-large=(bunny-one bunny fish-1 fish-5)
+large=(bunny-one bunny fish-1 fish-5 coarse-fish-1 coarse-fish-5 coarse-fish-25)
 huge=(fish-25)
 
 usage="usage: scripts/contact_scenes.sh [--threads N] [NAME...|quick|large|all]
@@ -16,7 +16,7 @@ usage="usage: scripts/contact_scenes.sh [--threads N] [NAME...|quick|large|all]
   large   ${large[*]}
           (minutes each, archives of 3 to 4 GB, 7 GB of memory)
   all     both
-  NAME    one of these, or ${huge[*]} (hours, see docs/performance.md)
+  NAME    one of these, or ${huge[*]} (very slow, see docs/performance.md)
   --threads N  of bemsim (1)"
 
 fail() {
@@ -70,6 +70,10 @@ prepare() {  # SCENE: what it needs
       make_bowl
       shape star star --subdivisions 2 --radius 0.1
       archive star rubber bdf1 0.002 ;;
+    coarse-fish-*)
+      make_bowl
+      shape coarse-fish fish --length 0.3 --segments 20
+      archive coarse-fish firm-rubber bdf1 0.003 ;;
     fish-*)
       make_bowl
       shape fish fish --length 0.3 --segments 60
@@ -98,10 +102,19 @@ prepare() {  # SCENE: what it needs
   esac
 }
 
+scene_file() {  # SCENE: its JSON; some are made of others (their paths hold in out/contact, too)
+  case "$1" in
+    no-self) sed 's/"self": true/"self": false/' scenes/contact/self.json >"$out/$1.json" ;;
+    coarse-*) sed 's#/fish.bem#/coarse-fish.bem#' "scenes/contact/${1#coarse-}.json" >"$out/$1.json" ;;
+    *) echo "scenes/contact/$1.json"; return ;;
+  esac
+  echo "$out/$1.json"
+}
+
 look() {  # SCENE: how it is drawn
   case "$1" in
     bunny*) echo --view 20,25 --columns 3 --sheet-frames 6 --obstacle-plane y=0 --color body ;;
-    bowl | fish-*) echo --up z --view 20,62 --columns 3 --sheet-frames 6 --color body ;;
+    bowl | *fish-*) echo --up z --view 20,62 --columns 3 --sheet-frames 6 --color body ;;
     chain) echo --view 0,5 --columns 4 --color body ;;
     lift) echo --view 10,15 --columns 4 --obstacle-plane y=-0.4 --color body ;;
     self | no-self) echo --view 15,20 --columns 3 --sheet-frames 6 --color deformation ;;
@@ -112,7 +125,7 @@ look() {  # SCENE: how it is drawn
 for scene in "${scenes[@]}"; do
   echo "== $scene"
   prepare "$scene"
-  file=scenes/contact/$scene.json
+  file=$(scene_file "$scene")
   measured=()
   [[ $scene != *self ]] || measured=(--self)
   "$bin/bemsim" "$file" -o "$out/$scene" --stats "$out/$scene.stats.json" --threads "$threads" --force
