@@ -12,7 +12,8 @@ struct MeasureOptions {
 };
 
 /// What a scene's trajectory shows, by its positions alone: the deepest penetration of every pair,
-/// where the bodies went, their speeds and energy.
+/// where the bodies went, their speeds and energy. Velocities are differences of two frames, so
+/// they belong to the middle between them, and an impact in between is smeared.
 nlohmann::ordered_json measure(const Scene& scene, const Trajectory& trajectory,
                                const MeasureOptions& options);
 
