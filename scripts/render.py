@@ -20,7 +20,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 
 import numpy as np  # noqa: E402
 
-from rendering import camera, colors, geometry, ground, picture, scene, trajectory  # noqa: E402
+from rendering import camera, colors, geometry, ground, obstacles, picture, scene, trajectory  # noqa: E402
 
 SHARP_ANGLE_DEG = 40.0
 TITLES = {"displacement": ("displacement", "m"), "deformation": ("deformation", "m"),
@@ -119,6 +119,7 @@ def parse_arguments(arguments):
     group("--fov", type=positive(float), default=26.0, metavar="DEG", help="vertical angle of view (26)")
     group("--obstacle-plane", type=plane, metavar="PLANE",
           help="draw a ground: y=0, NX,NY,NZ=OFFSET, or auto (the lowest point of the motion)")
+    group("--scene", metavar="JSON", help="draw the mesh obstacles of this scene, too")
     group = parser.add_argument_group("colour and shape").add_argument
     group("--color", choices=("displacement", "deformation", "traction", "body", "none"), default="deformation",
           help="|x - x0|; the same without the best rigid motion; |traction|; one per body; none (deformation)")
@@ -188,7 +189,8 @@ def color_scale(values, options, body_size):
 class Renderer:
     """Everything that the drawing of single frames needs."""
 
-    def __init__(self, motion, options):
+    def __init__(self, motion, options, surroundings=()):
+        """`surroundings`: bodies that are drawn in plain grey and counted nowhere else."""
         self.options, self.motion = options, motion
         bodies = motion.bodies
         body_size = float(np.median([np.linalg.norm(np.ptp(b.rest, axis=0)) for b in bodies]))
@@ -200,6 +202,10 @@ class Renderer:
         self.shapes = [scene.Shape(b.faces, *geometry.smoothing_groups(b.rest, b.faces, SHARP_ANGLE_DEG),
                                    colors.body_color(k) if options.color == "body" else colors.clay())
                        for k, b in enumerate(bodies)]
+        self.drawn = [*bodies, *surroundings]
+        self.shares += [None] * len(surroundings)
+        self.shapes += [scene.Shape(b.faces, *geometry.smoothing_groups(b.rest, b.faces, SHARP_ANGLE_DEG),
+                                    colors.surroundings()) for b in surroundings]
         axes = camera.view_axes(*options.view, options.up)
         light = camera.light_direction(axes, options.up)
         self.look = scene.Look(light, camera.UP[options.up], body_size,
@@ -229,7 +235,7 @@ class Renderer:
             captions = picture.Captions(height)
             bottom = 0.05 if self.options.no_text else 0.05 + 2 * captions.size / height
             margins = (0.05, max(0.05, captions.bar_width(scale) / width), 0.05, bottom)
-            view = camera.frame_points([b.positions for b in self.motion.bodies], self.axes, width / height,
+            view = camera.frame_points([b.positions for b in self.drawn], self.axes, width / height,
                                        self.options.fov, self.options.zoom, self.options.look_at, margins)
             self.stages[key] = scene.Stage(self.look, view, width, height)
         return self.stages[key]
@@ -239,7 +245,7 @@ class Renderer:
         texts = not self.options.no_text
         scale = self.scale if texts and with_bar else None
         pixels = self._stage(*size, scale).draw(
-            self.shapes, [b.positions[index] for b in self.motion.bodies],
+            self.shapes, [b.positions[index] for b in self.drawn],
             [None if s is None else s[index] for s in self.shares])
         if not texts:
             return pixels
@@ -340,7 +346,8 @@ def run(options):
         raise trajectory.InvalidInput(f"{options.trajectory}: no body has tractions to colour by")
     if not options.no_text and not picture.can_write_text():
         sys.stderr.write("warning: python3-pil is missing, so the pictures carry no text\n")
-    renderer = Renderer(motion, options)
+    surroundings = obstacles.load(options.scene, motion.times) if options.scene else ()
+    renderer = Renderer(motion, options, surroundings)
     write_frames(renderer, options)
     if options.sheet:
         write_sheet(renderer, options)

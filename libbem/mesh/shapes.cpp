@@ -206,6 +206,17 @@ TriangleMesh notched_cube(double size, int divisions) {
   return mesh;
 }
 
+TriangleMesh clip(const std::array<int, 3>& cells, int wall, double cell) {
+  check_length(cell, "the cell must be positive");
+  check(wall >= 1 && wall < cells[0] && 2 * wall < cells[1] && cells[2] >= 1,
+        "a clip needs 1 <= wall, wall below its first and below half its second number of cells");
+  for (int n : cells) check(n <= 1000, "divisions must be at most 1000");
+  TriangleMesh mesh = lattice_surface(
+      cells, [&](int i, int j, int) { return i < wall || j < wall || j >= cells[1] - wall; });
+  for (Vec3& v : mesh.vertices) v = cell * (v - 0.5 * Vec3(cells[0], cells[1], cells[2]));
+  return mesh;
+}
+
 TriangleMesh random_tetrahedron(std::uint64_t seed) {
   Random random(seed);
   TriangleMesh mesh;

@@ -44,6 +44,15 @@ TriangleMesh star(int subdivisions, double radius);
 /// even and >= 2.
 TriangleMesh notched_cube(double size, int divisions);
 
+/// Fish along x, its nose at +x, flattened along y, with a forked tail; about 0.85 * segments^2
+/// vertices, `segments` >= 8 around its girth.
+TriangleMesh fish(double length, int segments);
+
+/// Clip: a bar bent to a U, around the origin: two arms along x, one above the other in y, that
+/// join at -x. Its box has `cells` cells of width `cell` [m], the bar is `wall` of them thick;
+/// 1 <= wall < cells[0] and 2 wall < cells[1].
+TriangleMesh clip(const std::array<int, 3>& cells, int wall, double cell);
+
 /// Tetrahedron with corners in the unit cube and a volume of at least 0.05.
 TriangleMesh random_tetrahedron(std::uint64_t seed);
 

@@ -164,13 +164,14 @@ GrowthEstimate growth_factor(const BodyModel& model) {
   GrowthEstimate estimate;
   for (int step = 1; step <= kMostSteps; ++step) {
     const bool open = space.extend();
-    if (open && step % kCheckEvery != 0) continue;
+    const bool full = space.size() == kMostKept;  // pairs make the space after a cut odd
+    if (open && !full && step % kCheckEvery != 0) continue;
     estimate = space.largest();
     estimate.steps = smoothing + step;
     // what decays anyway need not be known as well
     const double tolerance = kTolerance + 0.02 * std::max(0.0, 1 - estimate.factor);
     if (!open || estimate.residual <= tolerance) return estimate;
-    if (space.size() == kMostKept) space.cut(kKept);
+    if (full) space.cut(kKept);
   }
   return estimate;
 }

@@ -9,6 +9,7 @@ _VIRIDIS = (
     "1f948c1e9c8920a38625ab822eb37c3aba7648c16e58c7656ccd5a7fd34e93d741a8db34c0df25d5e21aeae51afde725")
 _BODIES = ("4c86c6", "ee8a3a", "55a868", "d9575c", "8d79c9", "4fb5b0", "e3bb3f", "a47a61")
 _CLAY = "c9bcae"
+_SURROUNDINGS = "b4bac2"
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
@@ -42,6 +43,10 @@ def body_color(index):
 
 def clay():
     return from_hex(_CLAY)[0]
+
+
+def surroundings():
+    return from_hex(_SURROUNDINGS)[0]
 
 
 @dataclasses.dataclass

@@ -1,4 +1,5 @@
 """scripts/render.py: pictures of a small trajectory, and the parts that they rest on."""
+import json
 import pathlib
 import subprocess
 import sys
@@ -12,7 +13,7 @@ from PIL import Image
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 
-from rendering import camera, colors, geometry, raster, trajectory  # noqa: E402
+from rendering import camera, colors, geometry, obstacles, raster, trajectory  # noqa: E402
 
 BOX_FACES = np.array([[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4],
                       [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]])
@@ -46,6 +47,35 @@ def hue_distance(pixel, color):
         chroma = np.asarray(rgb, dtype=float) - np.mean(rgb)
         return chroma / max(np.linalg.norm(chroma), 1e-12)
     return np.linalg.norm(direction(pixel) - direction(color))
+
+
+class Obstacles(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "plate.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+
+    def load(self, *obstacle_list, times=(0, 1, 2, 3)):
+        path = self.folder / "scene.json"
+        path.write_text(json.dumps({"obstacles": obstacle_list}))
+        return obstacles.load(path, np.array(times, dtype=float))
+
+    def test_meshes_move_and_turn_as_their_keyframes_say(self):
+        motion = [{"time": 1}, {"time": 3, "translate": [0, 0, 2], "about": [1, 0, 0],
+                                "rotate": {"axis": [0, 0, 2], "angle_deg": 180}}]
+        plate, = self.load({"name": "floor", "plane": {}},
+                           {"name": "plate", "mesh": "plate.obj", "position": [1, 0, 0], "motion": motion})
+        self.assertEqual(plate.faces.tolist(), [[0, 1, 2], [0, 2, 3]])
+        corner = plate.positions[:, 1]  # starts at (2, 0, 0), a unit from the axis at the end
+        np.testing.assert_allclose(corner[[0, 1]], [[2, 0, 0], [2, 0, 0]], atol=1e-12)
+        np.testing.assert_allclose(corner[2], [0.5, 1.5, 1], atol=1e-12)  # about (0.5, 0, 0), 90 degrees
+        np.testing.assert_allclose(corner[3], [0, 0, 2], atol=1e-12)
+
+    def test_what_is_no_scene_is_an_error(self):
+        for broken in ({"name": "x", "mesh": "none.obj"}, {"mesh": 3}):
+            with self.assertRaises(trajectory.InvalidInput):
+                self.load(broken)
 
 
 class Pictures(unittest.TestCase):

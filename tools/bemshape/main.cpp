@@ -33,6 +33,9 @@ struct Options {
   double thickness = 0.1;
   int segments = 32;
   int rings = 8;
+  double length = 1;
+  int wall = 1;
+  double cell = 0.1;
   std::uint64_t seed = 1;
 };
 
@@ -108,6 +111,12 @@ class CommandLine {
     cylinder.add_option("--segments", options_.segments, "cells around the rim");
     cylinder.add_option("--rings", options_.rings, "layers along the height");
 
+    CLI::App& fish = add_shape("fish", "fish along x with a forked tail",
+                               [](auto& o) { return bem::fish(o.length, o.segments); });
+    fish.add_option("--length", options_.length, "length [m]");
+    fish.add_option("--segments", options_.segments,
+                    "cells around its girth, n: about 0.85 n^2 vertices");
+
     CLI::App& bowl = add_shape("bowl", "thick hemispherical bowl opening towards +z", [](auto& o) {
       return bem::bowl(o.radius, o.thickness, o.segments);
     });
@@ -136,6 +145,13 @@ class CommandLine {
       cube->add_option("--size", options_.width, "width [m]");
       cube->add_option("--divisions", options_.cells, "cells along an edge");
     }
+    CLI::App& clip = add_shape("clip", "bar bent to a U, open at +x", [](auto& o) {
+      return bem::clip({o.divisions[0], o.divisions[1], o.divisions[2]}, o.wall, o.cell);
+    });
+    clip.add_option("--divisions", options_.divisions, "cells of its box along x, y, z")
+        ->expected(3);
+    clip.add_option("--wall", options_.wall, "thickness of the bar in cells");
+    clip.add_option("--cell", options_.cell, "width of a cell [m]");
     CLI::App& tetrahedron =
         add_shape("random-tetrahedron", "tetrahedron with corners in the unit cube",
                   [](auto& o) { return bem::random_tetrahedron(o.seed); });

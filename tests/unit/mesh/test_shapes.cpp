@@ -1,5 +1,6 @@
 #include "mesh/adjacency.hpp"
 #include "mesh/mass_properties.hpp"
+#include "mesh/self_intersection.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/surface.hpp"
 #include "mesh_test.hpp"
@@ -124,6 +125,36 @@ TEST_CASE("notched cube: seven eighths of a cube") {
   for (const Vec3& v : notched_cube(2.0, 4).vertices) CHECK_FALSE(v.minCoeff() > 1e-12);
 }
 
+TEST_CASE("fish: closed, symmetric in its number of vertices, well shaped, flat and forked") {
+  for (int segments : {8, 14, 30, 60}) {
+    const TriangleMesh mesh = fish(0.5, segments);
+    checked_volume(mesh);
+    CHECK(find_self_intersections(mesh).count == 0);
+    CHECK(mesh.vertices.size() > 0.6 * segments * segments);
+    CHECK(mesh.vertices.size() < 1.1 * segments * segments);
+  }
+  const TriangleMesh mesh = fish(1, 60);
+  CHECK(checked_volume(mesh) == Approx(checked_volume(fish(1, 90))).epsilon(0.01));
+  CHECK(smallest_height_ratio(mesh) > 0.01);
+  const Vec3 size = bounding_box(mesh.vertices).max - bounding_box(mesh.vertices).min;
+  CHECK(size[0] == Approx(1).epsilon(0.1));
+  CHECK(size[1] < 0.7 * size[2]);
+  // the tips of the tail are behind its middle
+  double tip = 1, middle = 1;
+  for (const Vec3& v : mesh.vertices) {
+    if (v[2] > 0.12) tip = std::min(tip, v[0]);
+    if (std::abs(v[2]) < 0.02) middle = std::min(middle, v[0]);
+  }
+  CHECK(tip < middle - 0.05);
+}
+
+TEST_CASE("clip: the volume of its box without the gap") {
+  const TriangleMesh mesh = clip({10, 7, 3}, 2, 0.1);
+  CHECK(checked_volume(mesh) == Approx(1.0 * 0.7 * 0.3 - 0.8 * 0.3 * 0.3).epsilon(1e-12));
+  CHECK(bounding_box(mesh.vertices).max.isApprox(Vec3(0.5, 0.35, 0.15), 1e-12));
+  for (const Vec3& v : mesh.vertices) CHECK_FALSE((v[0] > -0.29 && std::abs(v[1]) < 0.14));
+}
+
 TEST_CASE("random tetrahedra: valid, different, the same for the same seed") {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const TriangleMesh mesh = random_tetrahedron(seed);
@@ -157,6 +188,14 @@ TEST_CASE("shapes refuse parameters out of range as usage errors") {
                                          [] { bumpy_cube(1, 4, 1.0); },
                                          [] { bowl(1, 1, 8); },
                                          [] { star(2, std::nan("")); },
+                                         [] { fish(0, 20); },
+                                         [] { fish(1, 7); },
+                                         [] {
+                                           clip({4, 4, 1}, 2, 0.1);
+                                         },
+                                         [] {
+                                           clip({4, 5, 1}, 2, 0);
+                                         },
                                          [] { notched_cube(1, 3); }};
   for (const auto& call : calls)
     CHECK_THAT(test::error_message(ErrorCode::usage, call), Catch::Matchers::StartsWith("shape: "));

@@ -49,3 +49,15 @@ TEST_CASE("motions that grow slowly among many that hardly decay are found") {
     CHECK(growth(row.mesh, row.nu, "radau2", row.lam) == Approx(row.factor).margin(2e-4));
   }
 }
+
+TEST_CASE("the search may restart with one motion more than usual") {
+  // A thick sheet whose largest motions are split in the middle of a conjugate pair; confirmed as
+  // above.
+  const Material m = material(1000, 1e6, 0.3);
+  const BodyGeometry g = geometry_of(box(Vec3(0.05, 0.6, 0.6), {1, 5, 5}), m.density);
+  PrecomputeOptions o = options_for(g, m, "theta:0.75", g.extent / (m.shear_speed() * 1e-3));
+  const GrowthEstimate estimate = growth_factor(precompute(g, o));
+  CHECK(estimate.steps > 100);
+  CHECK(estimate.residual < 1e-4);
+  CHECK(estimate.factor == Approx(1).margin(0.02));
+}

@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+"""Prints what scripts/contact_scenes.sh has measured as Markdown tables.
+
+    contact_tables.py out/contact SCENE...
+"""
+import json
+import pathlib
+import sys
+
+
+def load(folder, scene):
+    return [json.loads((folder / f"{scene}.{kind}.json").read_text()) for kind in ("stats", "measure")]
+
+
+def row(*cells):
+    print("| " + " | ".join(str(c) for c in cells) + " |")
+
+
+def header(*cells):
+    row(*cells)
+    row(*("---" for _ in cells))
+
+
+def times(scenes):
+    phases = ("unconstrained", "collision", "constraints", "correction")
+    header("scene", "bodies", "contacts mean, most", *(f"{p} [ms]" for p in phases), "worst penetration / size",
+           "steps not converged")
+    for name, (stats, measured) in scenes.items():
+        contacts = stats["constraints"]["contacts"]
+        row(name, len(stats["bodies"]), f"{contacts['mean']:.1f}, {contacts['max']}",
+            *(f"{1e3 * stats['phases'][p]['mean_seconds']:.2f}" for p in phases),
+            f"{measured['worst_penetration_of_size']:.1e}", stats["constraints"]["steps_not_converged"])
+
+
+def ends(scenes):
+    header("scene", "body", "way of the centre [m]", "velocity at the end [m/s]", "fastest vertex [m/s]",
+           "kinetic energy [J/kg]")
+    for name, (_, measured) in scenes.items():
+        for body in measured["bodies"] if len(measured["bodies"]) <= 5 else ():
+            way = [b - a for a, b in zip(body["start"], body["end"])]
+            row(name, body["name"], ", ".join(f"{x:.4f}" for x in way),
+                ", ".join(f"{x:.5f}" for x in body["end_velocity"]),
+                f"{body['end_speed_of_fastest_vertex']:.1e}", f"{body['end_kinetic_energy_per_mass']:.1e}")
+
+
+def main(arguments):
+    if len(arguments) < 2 or arguments[0].startswith("-"):
+        sys.stderr.write("usage: contact_tables.py FOLDER SCENE...\n")
+        return 2
+    scenes = {name: load(pathlib.Path(arguments[0]), name) for name in arguments[1:]}
+    times(scenes)
+    print()
+    ends(scenes)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,64 @@
+"""The mesh obstacles of a scene (docs/scene-format.md) and where they are at given times."""
+import json
+import pathlib
+
+import numpy as np
+
+from .trajectory import Body, InvalidInput
+
+
+def load(path, times):
+    """The mesh obstacles of the scene file as bodies with a position per time; planes are left out."""
+    try:
+        scene = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+        return [_body(obstacle, pathlib.Path(path).parent, times)
+                for obstacle in scene.get("obstacles", []) if "mesh" in obstacle]
+    except OSError as error:
+        raise InvalidInput(f"{error.filename}: {error.strerror}") from None
+    except (ValueError, KeyError, TypeError, AttributeError, IndexError):
+        raise InvalidInput(f"{path}: not a scene whose obstacles can be drawn (meshes as OBJ files)") from None
+
+
+def _body(obstacle, folder, times):
+    vertices, faces = _read_obj(folder / obstacle["mesh"])
+    rest = vertices + np.array(obstacle.get("position", [0, 0, 0]), dtype=float)
+    positions = np.stack([_moved(rest, obstacle.get("motion", []), t) for t in times])
+    return Body(obstacle["name"], faces, rest, positions, None)
+
+
+def _read_obj(path):
+    vertices, faces = [], []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        kind, *values = line.split() or [""]
+        if kind == "v":
+            vertices.append([float(x) for x in values[:3]])
+        elif kind == "f":
+            corners = [int(v.split("/")[0]) - 1 for v in values]
+            faces += [[corners[0], a, b] for a, b in zip(corners[1:], corners[2:])]
+    return np.array(vertices), np.array(faces, dtype=np.int64)
+
+
+def _moved(points, motion, time):
+    """Between two keyframes about the axis of the later one that turns: different axes are not blended."""
+    if not motion:
+        return points
+    keys, about = [], [0, 0, 0]
+    for key in motion:
+        about = key.get("about", about)
+        turn = key.get("rotate", {})
+        keys.append((key["time"], key.get("translate", [0, 0, 0]), about, turn.get("angle_deg", 0.0),
+                     turn.get("axis")))
+    start = [k[0] for k in keys]
+    translate, center = ([np.interp(time, start, [k[which][i] for k in keys]) for i in range(3)]
+                         for which in (1, 2))
+    angle = np.radians(np.interp(time, start, [k[3] for k in keys]))
+    after = min(np.searchsorted(start, time), len(keys) - 1)
+    axes = [k[4] for k in (keys[after], keys[max(after - 1, 0)]) if k[4] is not None]
+    rotation = _rotation(axes[0], angle) if axes else np.eye(3)
+    return (points - center) @ rotation.T + center + translate
+
+
+def _rotation(axis, angle):
+    x, y, z = np.array(axis, dtype=float) / np.linalg.norm(axis)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "base/hdf5.hpp"
+#include "mesh/triangle_mesh.hpp"
+#include "scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bem {
+
+/// A trajectory.h5 of a scene, frame by frame.
+class Trajectory {
+ public:
+  /// Throws ErrorCode::archive if the file is not a trajectory of the scene's bodies.
+  Trajectory(const std::string& path, const Scene& scene);
+
+  const std::vector<double>& times() const { return times_; }  ///< [s]
+  /// Body b in frame k, world coordinates.
+  TriangleMesh body(std::size_t b, std::size_t k) const;
+
+ private:
+  Hdf5File file_;
+  std::vector<double> times_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<Triangle>> triangles_;
+};
+
+}  // namespace bem
