@@ -1,10 +1,10 @@
 #include "algebra/gmres.hpp"
 
-#include <Eigen/Jacobi>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <Eigen/Jacobi>
 
 namespace bem {
 namespace {
@@ -75,8 +75,8 @@ class Krylov {
 }  // namespace
 
 template <class T>
-GmresResult gmres(const std::function<ColumnsOf<T>(const ColumnsOf<T>&)>& apply, const ColumnsOf<T>& b,
-                  ColumnsOf<T>& x, const GmresOptions& options) {
+GmresResult gmres(const std::function<ColumnsOf<T>(const ColumnsOf<T>&)>& apply,
+                  const ColumnsOf<T>& b, ColumnsOf<T>& x, const GmresOptions& options) {
   constexpr int kPatience = 15;  // iterations in which the residual has to halve
   ColumnsOf<T> rest = b;
   if (!x.isZero(0)) rest -= apply(x);
@@ -93,8 +93,8 @@ GmresResult gmres(const std::function<ColumnsOf<T>(const ColumnsOf<T>&)>& apply,
       if (space.is_open() && space.residual() > options.tolerance) open.push_back(c);
     }
     past.push_back(result.residual);
-    const bool stalled = past.size() > kPatience &&
-                         result.residual > 0.5 * past[past.size() - 1 - kPatience];
+    const bool stalled =
+        past.size() > kPatience && result.residual > 0.5 * past[past.size() - 1 - kPatience];
     if (open.empty() || stalled || result.iterations >= options.most_iterations) break;
     ColumnsOf<T> inputs(b.rows(), static_cast<Eigen::Index>(open.size()));
     for (std::size_t i = 0; i < open.size(); ++i)
@@ -110,8 +110,8 @@ GmresResult gmres(const std::function<ColumnsOf<T>(const ColumnsOf<T>&)>& apply,
 template GmresResult gmres(const std::function<ColumnsOf<double>(const ColumnsOf<double>&)>& apply,
                            const ColumnsOf<double>& b, ColumnsOf<double>& x,
                            const GmresOptions& options);
-template GmresResult gmres(const std::function<ColumnsOf<Complex>(const ColumnsOf<Complex>&)>& apply,
-                           const ColumnsOf<Complex>& b, ColumnsOf<Complex>& x,
-                           const GmresOptions& options);
+template GmresResult gmres(
+    const std::function<ColumnsOf<Complex>(const ColumnsOf<Complex>&)>& apply,
+    const ColumnsOf<Complex>& b, ColumnsOf<Complex>& x, const GmresOptions& options);
 
 }  // namespace bem

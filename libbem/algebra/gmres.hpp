@@ -19,12 +19,12 @@ struct GmresResult {
 
 /// Solves a x = b for several right-hand sides at once (n x count, each with a Krylov space of its
 /// own) by GMRES without restarts (Saad & Schultz 1986), from the x that is given. `apply` gets
-/// several vectors at a time. Ends early when rounding keeps the residuals from falling. Memory: n x
-/// count numbers per iteration. T: double, Complex.
+/// several vectors at a time. Ends early when rounding keeps the residuals from falling. Memory: n
+/// x count numbers per iteration. T: double, Complex.
 template <class T>
 using ColumnsOf = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 template <class T>
-GmresResult gmres(const std::function<ColumnsOf<T>(const ColumnsOf<T>&)>& apply, const ColumnsOf<T>& b,
-                  ColumnsOf<T>& x, const GmresOptions& options);
+GmresResult gmres(const std::function<ColumnsOf<T>(const ColumnsOf<T>&)>& apply,
+                  const ColumnsOf<T>& b, ColumnsOf<T>& x, const GmresOptions& options);
 
 }  // namespace bem

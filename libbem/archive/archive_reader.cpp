@@ -201,8 +201,7 @@ std::vector<Archive::FamilyPlace> Archive::family_places() const {
   if (kind_ == ModelKind::rigid) return places;
   for (const char* matrix : {"inverse", "traction_response"})
     for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i)
-      places.push_back(
-          {initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1)});
+      places.push_back({initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1)});
   for (const char* matrix : {"h", "g"})
     places.push_back({lags_path(matrix), lag_paths(matrix, discretisation_.history_length,
                                                    static_cast<int>(lag_components()))});

@@ -192,8 +192,7 @@ class MatrixWriter {
     for (int k = 0; k < family.count(); ++k) {
       const DenseStore<T>& store = family.matrix(k);
       file_.create_dataset(paths[k], hdf5_type<T>(), {store.rows(), store.columns()});
-      const std::size_t tile =
-          std::max<std::size_t>(1, kTileBytes / (store.columns() * sizeof(T)));
+      const std::size_t tile = std::max<std::size_t>(1, kTileBytes / (store.columns() * sizeof(T)));
       for (std::size_t first = 0; first < store.rows(); first += tile) {
         const std::size_t rows = std::min(tile, store.rows() - first);
         file_.write_rows(paths[k], first, rows, store.row(first));

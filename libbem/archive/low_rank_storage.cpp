@@ -61,7 +61,8 @@ class Reader {
       check(begin == row && end > begin && blocks >= 0 &&
                 block + static_cast<std::size_t>(blocks) <= block_count(),
             "slabs");
-      slabs.push_back(read_slab(begin, end, block, block + static_cast<std::size_t>(blocks), columns));
+      slabs.push_back(
+          read_slab(begin, end, block, block + static_cast<std::size_t>(blocks), columns));
       block += static_cast<std::size_t>(blocks);
       row = end;
     }
@@ -180,9 +181,8 @@ class Reader {
       }
       std::size_t bytes = block.plain ? 0 : block.output_basis.bytes();
       for (int k = 0; k < count_; ++k) {
-        const Layers layers =
-            checked_layers(&coupling_table_[(b * count_ + k) * kLayerNumbers], block.output_rank(),
-                           block.input_rank(), "couplings");
+        const Layers layers = checked_layers(&coupling_table_[(b * count_ + k) * kLayerNumbers],
+                                             block.output_rank(), block.input_rank(), "couplings");
         bytes += layers.bytes();
         if (keep) slab.couplings.push_back(layers);
       }
@@ -192,8 +192,7 @@ class Reader {
                       slab.analysis);
       skip_or_collect(synthesis_, synthesis, bytes, keep, slab.synthesis);
       skip_or_collect(inputs_, inputs, bases ? block.input_rank() : 0, keep, slab.input_scales);
-      skip_or_collect(outputs_, outputs, bases ? block.output_rank() : 0, keep,
-                      slab.output_scales);
+      skip_or_collect(outputs_, outputs, bases ? block.output_rank() : 0, keep, slab.output_scales);
     }
     take(analysis_, analysis.count, true, slab.analysis);
     take(synthesis_, synthesis.count, true, slab.synthesis);
@@ -241,7 +240,9 @@ void write_low_rank(Hdf5File& file, const std::string& group, const LowRankFamil
   file.write(group + "/blocks", blocks, {blocks.size() / kBlockNumbers, kBlockNumbers});
   file.write(group + "/couplings", couplings, {couplings.size() / kLayerNumbers, kLayerNumbers});
   const auto part = [](auto member) {
-    return [member](const LowRankSlab& slab) -> const auto& { return slab.*member; };
+    return [member](const LowRankSlab& slab) -> const auto& {
+      return slab.*member;
+    };
   };
   write_parts<float>(file, group + "/input_scales", family, part(&LowRankSlab::input_scales),
                      report);

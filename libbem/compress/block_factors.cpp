@@ -2,12 +2,12 @@
 
 #include "algebra/blas.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 namespace bem {
 namespace {
@@ -16,7 +16,7 @@ using FloatMap = Eigen::Map<const FloatMatrix>;
 
 constexpr Eigen::Index kFirstSamples = 64;
 constexpr Eigen::Index kProbes = 8;  ///< samples that only tell the error
-constexpr double kMostLeft = 4;  ///< light directions that the samples may miss
+constexpr double kMostLeft = 4;      ///< light directions that the samples may miss
 
 FloatMatrix product(const FloatMap& a, const FloatMap& b) {
   FloatMatrix c = FloatMatrix::Zero(a.rows(), b.cols());

@@ -17,8 +17,8 @@ void for_each_matrix(const std::vector<FamilyTerm>& unsorted, std::size_t input_
   const std::vector<FamilyTerm> terms = sorted_by_matrix(unsorted);
   const auto n = static_cast<Eigen::Index>(input_size), m = static_cast<Eigen::Index>(output_size);
   for (auto first = terms.begin(); first != terms.end();) {
-    const auto last = std::find_if(
-        first, terms.end(), [&](const FamilyTerm& t) { return t.matrix != first->matrix; });
+    const auto last = std::find_if(first, terms.end(),
+                                   [&](const FamilyTerm& t) { return t.matrix != first->matrix; });
     const Eigen::Index count = last - first;
     Eigen::MatrixXd inputs(n, count), products = Eigen::MatrixXd::Zero(m, count);
     for (Eigen::Index c = 0; c < count; ++c)
@@ -52,8 +52,8 @@ void DenseFamily<T>::multiply_add(const std::vector<SparseTerm>& terms,
                                   const std::vector<double*>& outputs) const {
   for (const SparseTerm& t : terms) {
     const Eigen::VectorXd values =
-        t.factor * Eigen::Map<const Eigen::VectorXd>(
-                       t.values, static_cast<Eigen::Index>(t.columns->size()));
+        t.factor *
+        Eigen::Map<const Eigen::VectorXd>(t.values, static_cast<Eigen::Index>(t.columns->size()));
     matrices_[t.matrix].multiply_add_columns(*t.columns, values.data(), outputs[t.output]);
   }
 }
@@ -131,8 +131,8 @@ void ColumnFamily<T>::multiply_add(const std::vector<SparseTerm>& terms,
                                    const std::vector<double*>& outputs) const {
   for (const SparseTerm& t : terms) {
     const Eigen::VectorXd values =
-        t.factor * Eigen::Map<const Eigen::VectorXd>(
-                       t.values, static_cast<Eigen::Index>(t.columns->size()));
+        t.factor *
+        Eigen::Map<const Eigen::VectorXd>(t.values, static_cast<Eigen::Index>(t.columns->size()));
     matrices_[t.matrix].multiply_add_columns(slots_of(*t.columns), values.data(),
                                              outputs[t.output]);
   }
@@ -152,8 +152,8 @@ void ColumnFamily<T>::multiply_transposed_add(const std::vector<FamilyTerm>& ter
 template <class T>
 std::unique_ptr<MatrixFamily> ColumnFamily<T>::combine(
     const std::vector<std::vector<double>>& weights) const {
-  auto out = std::make_unique<ColumnFamily<double>>(rows(), columns_,
-                                                    static_cast<int>(weights.size()));
+  auto out =
+      std::make_unique<ColumnFamily<double>>(rows(), columns_, static_cast<int>(weights.size()));
   const std::size_t entries = rows() * columns_.size();
   for (std::size_t j = 0; j < weights.size(); ++j) {
     double* sum = out->matrix(static_cast<int>(j)).column(0);

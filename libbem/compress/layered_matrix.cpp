@@ -12,7 +12,8 @@ namespace bem {
 namespace {
 
 std::uint16_t extent(Eigen::Index n) {
-  require(n <= std::numeric_limits<std::uint16_t>::max(), "a layered matrix has at most 65535 rows");
+  require(n <= std::numeric_limits<std::uint16_t>::max(),
+          "a layered matrix has at most 65535 rows");
   return static_cast<std::uint16_t>(n);
 }
 
@@ -87,16 +88,16 @@ void multiply(const Rectangle& part, const std::uint8_t* data, const float* x, f
 }
 
 /// Calls the instance of a function template for the type of a layer.
-#define BEM_FOR_LAYER(layer, function, ...)          \
-  switch (layer) {                                   \
-    case 0:                                          \
-      function<float>(__VA_ARGS__);                  \
-      break;                                         \
-    case 1:                                          \
-      function<std::int16_t>(__VA_ARGS__);           \
-      break;                                         \
-    default:                                         \
-      function<std::int8_t>(__VA_ARGS__);            \
+#define BEM_FOR_LAYER(layer, function, ...) \
+  switch (layer) {                          \
+    case 0:                                 \
+      function<float>(__VA_ARGS__);         \
+      break;                                \
+    case 1:                                 \
+      function<std::int16_t>(__VA_ARGS__);  \
+      break;                                \
+    default:                                \
+      function<std::int8_t>(__VA_ARGS__);   \
   }
 
 }  // namespace
@@ -114,9 +115,7 @@ Layers fit_layers(const FloatMatrix& entries) {
       Eigen::Index last = entries.rows();
       // a column that adds no rows is of interest only if it has anything at all
       while (last > rows && std::abs(entries(last - 1, j)) < kMost[layer]) --last;
-      if (last == rows &&
-          (entries.col(j).head(rows).array().abs() < kMost[layer]).all())
-        continue;
+      if (last == rows && (entries.col(j).head(rows).array().abs() < kMost[layer]).all()) continue;
       rows = last;
       columns = j + 1;
     }
@@ -136,9 +135,8 @@ void store_layers(const Layers& layers, FloatMatrix& entries, std::vector<std::u
 
 FloatMatrix load_layers(const Layers& layers, const std::uint8_t* data) {
   FloatMatrix out = FloatMatrix::Zero(layers.stored_rows(), layers.stored_columns());
-  for_each_rectangle(layers, [&](const Rectangle& part) {
-    BEM_FOR_LAYER(part.layer, load, part, data, out)
-  });
+  for_each_rectangle(
+      layers, [&](const Rectangle& part) { BEM_FOR_LAYER(part.layer, load, part, data, out) });
   return out;
 }
 
@@ -151,9 +149,8 @@ void load_layers_column(const Layers& layers, const std::uint8_t* data, int colu
 }
 
 void multiply_layers(const Layers& layers, const std::uint8_t* data, const float* x, float* y) {
-  for_each_rectangle(layers, [&](const Rectangle& part) {
-    BEM_FOR_LAYER(part.layer, multiply, part, data, x, y)
-  });
+  for_each_rectangle(
+      layers, [&](const Rectangle& part) { BEM_FOR_LAYER(part.layer, multiply, part, data, x, y) });
 }
 
 }  // namespace bem

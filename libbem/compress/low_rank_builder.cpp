@@ -10,9 +10,9 @@
 namespace bem {
 namespace {
 
-constexpr double kLeast = 8;         ///< quanta: what a direction must carry to be kept
-constexpr double kMost8 = 300;      ///< quanta: what a direction of 8-bit numbers carries at most
-constexpr double kMost16 = 100000;  ///< the same for 16-bit ones
+constexpr double kLeast = 8;          ///< quanta: what a direction must carry to be kept
+constexpr double kMost8 = 300;        ///< quanta: what a direction of 8-bit numbers carries at most
+constexpr double kMost16 = 100000;    ///< the same for 16-bit ones
 constexpr double kWorthTrying = 0.3;  ///< of all directions: from here on plain blocks are tried
 
 /// Scales the directions (columns) of a basis to the numbers of their width.
@@ -104,17 +104,17 @@ void LowRankBuilder::encode_with_bases(const BlockFactors& factors, Encoded& out
     out.squared_error += std::pow(factors.output_weights[i] * out.output_scales[i], 2) *
                          outputs.col(i).squaredNorm();
   for (Eigen::Index i = 0; i < inputs.rows(); ++i)
-    out.squared_error += std::pow(factors.input_weights[i] * out.input_scales[i], 2) *
-                         inputs.row(i).squaredNorm();
+    out.squared_error +=
+        std::pow(factors.input_weights[i] * out.input_scales[i], 2) * inputs.row(i).squaredNorm();
 }
 
-LowRankBuilder::Encoded LowRankBuilder::encode(const NodeBlock& b, int slab_begin,
-                                               const std::vector<MatrixView<float>>& matrices) const {
+LowRankBuilder::Encoded LowRankBuilder::encode(
+    const NodeBlock& b, int slab_begin, const std::vector<MatrixView<float>>& matrices) const {
   std::vector<MatrixView<float>> views;
   for (const MatrixView<float>& m : matrices)
-    views.emplace_back(m.data() + 3 * b.column_begin * m.outerStride() +
-                           3 * (b.row_begin - slab_begin),
-                       3 * b.rows(), 3 * b.columns(), Eigen::OuterStride<>(m.outerStride()));
+    views.emplace_back(
+        m.data() + 3 * b.column_begin * m.outerStride() + 3 * (b.row_begin - slab_begin),
+        3 * b.rows(), 3 * b.columns(), Eigen::OuterStride<>(m.outerStride()));
   Encoded out;
   out.block.row_begin = 3 * b.row_begin;
   out.block.row_end = 3 * b.row_end;
@@ -130,7 +130,8 @@ LowRankBuilder::Encoded LowRankBuilder::encode(const NodeBlock& b, int slab_begi
     out.squared_error = factors.squared_error;
     return out;
   }
-  const double most = kWorthTrying * static_cast<double>(std::min(out.block.rows(), out.block.columns()));
+  const double most =
+      kWorthTrying * static_cast<double>(std::min(out.block.rows(), out.block.columns()));
   if (static_cast<double>(factors.output_weights.size()) < most) return out;
   plain.block.plain = true;
   for (const MatrixView<float>& v : views) {
@@ -147,8 +148,9 @@ void LowRankBuilder::add_rows(const std::vector<MatrixView<float>>& matrices) {
           "a slab has its rows of every matrix");
   const Slab& slab = partition_[slabs_.size()];
   std::vector<Encoded> encoded(slab.blocks.size());
-  parallel_for(slab.blocks.size(),
-               [&](std::size_t b) { encoded[b] = encode(slab.blocks[b], slab.row_begin, matrices); });
+  parallel_for(slab.blocks.size(), [&](std::size_t b) {
+    encoded[b] = encode(slab.blocks[b], slab.row_begin, matrices);
+  });
   LowRankSlab out;
   out.row_begin = 3 * slab.row_begin;
   out.row_end = 3 * slab.row_end;

@@ -96,8 +96,7 @@ void LowRankFamily::analyse(const double* x, float* coefficients) const {
       std::fill_n(out, block.input_rank(), 0.0F);
       multiply_layers(block.input_basis, slab.analysis.data() + p.analysis,
                       single.data() + block.column_begin, out);
-      for (int i = 0; i < block.input_rank(); ++i)
-        out[i] *= slab.input_scales[p.input_scales + i];
+      for (int i = 0; i < block.input_rank(); ++i) out[i] *= slab.input_scales[p.input_scales + i];
     }
   });
 }
@@ -326,10 +325,10 @@ FloatMatrix LowRankFamily::multiply_left(const FloatMatrix& x, int matrix) const
                     expanded);
         FloatMatrix coupled = FloatMatrix::Zero(rows.rows(), k.input_rank());
         add_product(expanded, coupling, coupled);
-        add_product(coupled,
-                    load_all(k.input_basis, slab.analysis.data() + p.analysis, k.input_rank(),
-                             k.columns()),
-                    to);
+        add_product(
+            coupled,
+            load_all(k.input_basis, slab.analysis.data() + p.analysis, k.input_rank(), k.columns()),
+            to);
       }
     }
     out.middleRows(first, rows.rows()) = sums;
@@ -353,10 +352,9 @@ std::unique_ptr<MatrixFamily> LowRankFamily::combine(
         FloatMatrix sum = FloatMatrix::Zero(block.output_rank(), block.input_rank());
         for (int k = 0; k < count_; ++k)
           if (w[k] != 0)
-            sum += static_cast<float>(w[k]) *
-                   load_all(from.couplings[b * count_ + k],
-                            from.synthesis.data() + p.couplings[k], block.output_rank(),
-                            block.input_rank());
+            sum += static_cast<float>(w[k]) * load_all(from.couplings[b * count_ + k],
+                                                       from.synthesis.data() + p.couplings[k],
+                                                       block.output_rank(), block.input_rank());
         to.couplings.push_back(fit_layers(sum));
         store_layers(to.couplings.back(), sum, to.synthesis);
       }
@@ -388,9 +386,9 @@ Eigen::MatrixXd LowRankFamily::block(int matrix, const std::vector<int>& rows,
       const std::vector<int> r = positions_in(rows, k.row_begin, k.row_end);
       const std::vector<int> c = positions_in(columns, k.column_begin, k.column_end);
       if (r.empty() || c.empty()) continue;
-      FloatMatrix entries = load_all(slab.couplings[b * count_ + matrix],
-                                     slab.synthesis.data() + p.couplings[matrix], k.output_rank(),
-                                     k.input_rank());
+      FloatMatrix entries =
+          load_all(slab.couplings[b * count_ + matrix], slab.synthesis.data() + p.couplings[matrix],
+                   k.output_rank(), k.input_rank());
       const std::vector<int> in_rows = relative(rows, r, k.row_begin);
       const std::vector<int> in_columns = relative(columns, c, k.column_begin);
       if (k.plain) {
@@ -404,8 +402,8 @@ Eigen::MatrixXd LowRankFamily::block(int matrix, const std::vector<int>& rows,
                                                     k.output_rank());
         const Eigen::Map<const FloatVector> inputs(slab.input_scales.data() + p.input_scales,
                                                    k.input_rank());
-        entries = FloatMatrix(left * outputs.asDiagonal() * entries *
-                              (inputs.asDiagonal() * right));
+        entries =
+            FloatMatrix(left * outputs.asDiagonal() * entries * (inputs.asDiagonal() * right));
       }
       out(r, c) = quantum_ * entries.cast<double>();
     }

@@ -28,10 +28,10 @@ struct LowRankBlock {
 struct LowRankSlab {
   int row_begin = 0, row_end = 0;  ///< unknowns
   std::vector<LowRankBlock> blocks;
-  std::vector<Layers> couplings;       ///< [block][matrix], output rank x input rank
-  std::vector<float> input_scales;     ///< of the blocks' input bases, one after another
-  std::vector<float> output_scales;    ///< of their output bases
-  std::vector<std::uint8_t> analysis;  ///< input bases
+  std::vector<Layers> couplings;        ///< [block][matrix], output rank x input rank
+  std::vector<float> input_scales;      ///< of the blocks' input bases, one after another
+  std::vector<float> output_scales;     ///< of their output bases
+  std::vector<std::uint8_t> analysis;   ///< input bases
   std::vector<std::uint8_t> synthesis;  ///< couplings of a block, then its output basis
 };
 

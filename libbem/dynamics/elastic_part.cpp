@@ -95,8 +95,8 @@ Eigen::MatrixXd ElasticPart::response(const std::vector<int>& rows, int row_stag
     for (int k = 0; k < pattern.size(); ++k)
       offset -= offset_.gain()(row_stage, k) * (initial[c].left[k] * factor * z).real();
   }
-  offset -=
-      (offset_.gain().row(row_stage) * pattern).value() * tractions_->balanced_acceleration(columns);
+  offset -= (offset_.gain().row(row_stage) * pattern).value() *
+            tractions_->balanced_acceleration(columns);
   out.noalias() += rigid_columns(system_.model().geometry.nodes.vertices, rows) * offset;
   for (std::size_t j = 0; j < columns.size(); ++j)
     out.middleCols<3>(static_cast<Eigen::Index>(3 * j)) /= areas_[columns[j]];

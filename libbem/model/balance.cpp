@@ -35,8 +35,7 @@ class Adjoint {
     for (std::size_t m = 0; m < components.size(); ++m) {
       const Columns inputs = combine(components[m].left, z);
       const Columns products = transposed(sums, static_cast<int>(m), inputs);
-      for (int b = 0; b < scheme_.stages(); ++b)
-        stage(out, b) += components[m].right[b] * products;
+      for (int b = 0; b < scheme_.stages(); ++b) stage(out, b) += components[m].right[b] * products;
     }
     return out;
   }
@@ -67,9 +66,7 @@ class Adjoint {
   }
 
  private:
-  Columns::BlockXpr stage(Columns& z, int a) const {
-    return z.block(a * n_, 0, n_, z.cols());
-  }
+  Columns::BlockXpr stage(Columns& z, int a) const { return z.block(a * n_, 0, n_, z.cols()); }
   Columns combine(const StageVector& factors, const Columns& z) const {
     Columns out = factors[0] * z.topRows(n_);
     for (int a = 1; a < scheme_.stages(); ++a) out += factors[a] * z.middleRows(a * n_, n_);
@@ -108,7 +105,8 @@ Columns body_response(const BodyModel& model, const ElasticSystem& system) {
       Eigen::MatrixXcd forces = c.right[b] * model.initial_body_force[i];
       for (std::size_t m = 0; m < sums.size(); ++m) {
         const LagComponent& lag = scheme.lag_components()[m];
-        const Complex factor = (c.right.transpose() * lag.left.cast<Complex>()).value() * lag.right[b];
+        const Complex factor =
+            (c.right.transpose() * lag.left.cast<Complex>()).value() * lag.right[b];
         forces += factor * sums[m];
       }
       const Eigen::MatrixXcd response = system.apply_inverse(static_cast<int>(i), forces);
@@ -153,16 +151,16 @@ void compute_balance(BodyModel& model) {
     return out;
   };
   // the functional that is wanted: the mean over a step of the accelerations at the stages
-  const StageVector mean = scheme.integration().row(stages - 1).transpose() /
-                           scheme.integration().row(stages - 1).sum();
+  const StageVector mean =
+      scheme.integration().row(stages - 1).transpose() / scheme.integration().row(stages - 1).sum();
   Columns wanted = Columns::Zero((n + 6) * stages, 6);
   for (int a = 0; a < stages; ++a)
     wanted.block(n * stages + 6 * a, 0, 6, 6) =
         mean[a] * scales.segment(6 * a, 6).cwiseInverse().asDiagonal().toDenseMatrix();
   const Eigen::VectorXd sizes = wanted.colwise().norm();
   Columns solution = Columns::Zero(wanted.rows(), 6);
-  const GmresResult result = gmres<double>(
-      apply, wanted * sizes.cwiseInverse().asDiagonal(), solution, {tolerance, 300});
+  const GmresResult result =
+      gmres<double>(apply, wanted * sizes.cwiseInverse().asDiagonal(), solution, {tolerance, 300});
   if (!(result.residual <= kAcceptable))
     throw Error(ErrorCode::numerical,
                 "the static balance of the body cannot be computed: its matrices are too "

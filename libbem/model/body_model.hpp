@@ -40,10 +40,10 @@ struct BodyModel {
   Codec codec = Codec::none;
   Precision precision = Precision::float32;  ///< of uncompressed matrices
 
-  std::unique_ptr<MatrixFamily> h, g;                ///< 3N x 3N, lags >= 1
-  std::vector<Eigen::MatrixXd> body_force;           ///< [D_k Q_k], 3N x 6, lags >= 1
-  std::vector<Eigen::MatrixXcd> initial_body_force;  ///< [D_0 Q_0] by initial component, 3N x 6
-  std::vector<std::unique_ptr<MatrixFamily>> inverse;            ///< H_0^{-1}
+  std::unique_ptr<MatrixFamily> h, g;                  ///< 3N x 3N, lags >= 1
+  std::vector<Eigen::MatrixXd> body_force;             ///< [D_k Q_k], 3N x 6, lags >= 1
+  std::vector<Eigen::MatrixXcd> initial_body_force;    ///< [D_0 Q_0] by initial component, 3N x 6
+  std::vector<std::unique_ptr<MatrixFamily>> inverse;  ///< H_0^{-1}
   std::vector<std::unique_ptr<MatrixFamily>> traction_response;  ///< H_0^{-1} G_0
   /// The static equation H(0) u = b + D(0) a' + Q(0) alpha can be solved for u only with the
   /// accelerations (a', alpha) = balance * b: the discrete form of force = mass x acceleration.

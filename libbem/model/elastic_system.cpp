@@ -17,10 +17,10 @@ LagHistory::LagHistory(const Scheme& scheme, Eigen::Index inputs, int history_le
       window_(window),
       family_(family),
       ring_(history_length, Eigen::MatrixXd::Zero(inputs, right_.cols())),
-      coefficients_(history_length,
-                    Eigen::MatrixXf::Zero(
-                        family ? static_cast<Eigen::Index>(family->coefficients()) : 0,
-                        right_.cols())),
+      coefficients_(
+          history_length,
+          Eigen::MatrixXf::Zero(family ? static_cast<Eigen::Index>(family->coefficients()) : 0,
+                                right_.cols())),
       zero_(history_length, 1) {}
 
 void LagHistory::push(const Eigen::MatrixXd& stages) {
@@ -98,7 +98,8 @@ Eigen::MatrixXcd multiply_complex(const MatrixFamily& family, const Eigen::Matri
     terms.push_back({0, inputs.col(c).data(), analysed.col(c).data(), real_output, 1});
     if (complex)
       terms.push_back({1, inputs.col(c).data(), analysed.col(c).data(),
-                       static_cast<int>(imaginary ? c - count : c + count), imaginary ? -1.0 : 1.0});
+                       static_cast<int>(imaginary ? c - count : c + count),
+                       imaginary ? -1.0 : 1.0});
   }
   family.multiply_add(terms, out);
   Eigen::MatrixXcd product(n, count);

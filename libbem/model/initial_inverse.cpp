@@ -117,8 +117,7 @@ double response_norm(const DenseMatrix<T>& inverse, const LowRankFamily& g) {
 template <class T>
 void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, const LowRankFamily* g,
                        double tolerance, const Progress& progress) {
-  const DenseMatrix<T> inverse =
-      invert(model, factorise(std::move(h), progress), progress);
+  const DenseMatrix<T> inverse = invert(model, factorise(std::move(h), progress), progress);
   const std::vector<Slab> partition = make_partition(model.geometry.nodes.vertices, {});
   const auto rows_of = [&](const Slab& slab) {
     return parts(inverse, 3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin));
@@ -126,19 +125,17 @@ void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, const LowRankFamily
   const Slab& middle = partition[partition.size() / 2];
   const std::vector<FloatMatrix> sample = rows_of(middle);
   const auto builder = [&](const std::vector<FloatMatrix>& rows, double norm) {
-    return LowRankBuilder(
-        partition, static_cast<int>(rows.size()),
-        LowRankBuilder::choose_quantum(middle, views(rows), tolerance * norm));
+    return LowRankBuilder(partition, static_cast<int>(rows.size()),
+                          LowRankBuilder::choose_quantum(middle, views(rows), tolerance * norm));
   };
   LowRankBuilder inverse_builder = builder(sample, inverse.norm());
   std::unique_ptr<LowRankBuilder> response_builder;
   if (g)
-    response_builder = std::make_unique<LowRankBuilder>(
-        builder(times(sample, *g), response_norm(inverse, *g)));
+    response_builder =
+        std::make_unique<LowRankBuilder>(builder(times(sample, *g), response_norm(inverse, *g)));
   for (const Slab& slab : partition) {
     if (progress)
-      progress("compressing the inverse",
-               3 * slab.row_begin / static_cast<double>(inverse.rows()));
+      progress("compressing the inverse", 3 * slab.row_begin / static_cast<double>(inverse.rows()));
     const std::vector<FloatMatrix> rows = rows_of(slab);
     inverse_builder.add_rows(views(rows));
     if (g) response_builder->add_rows(views(times(rows, *g)));

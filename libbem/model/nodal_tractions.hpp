@@ -6,8 +6,8 @@ namespace bem {
 
 /// The traction matrices, or those of their columns that belong to some nodes.
 struct TractionData {
-  std::vector<int> nodes;                                ///< ascending
-  std::shared_ptr<const MatrixFamily> lags;              ///< G_k, lag >= 1
+  std::vector<int> nodes;                                     ///< ascending
+  std::shared_ptr<const MatrixFamily> lags;                   ///< G_k, lag >= 1
   std::vector<std::shared_ptr<const MatrixFamily>> response;  ///< H_0^{-1} G_0
 };
 

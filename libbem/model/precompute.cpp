@@ -110,9 +110,9 @@ std::vector<InitialMatrix> initial_matrices(const BodyModel& model) {
 
 /// Far panels in single precision where neither storage nor tolerance asks for more.
 AssemblyPrecision assembly_precision(const PrecomputeOptions& options) {
-  const bool single = (options.codec.codec != Codec::none ||
-                       options.precision == Precision::float32) &&
-                      options.discretisation.quadrature_tolerance >= 1e-6;
+  const bool single =
+      (options.codec.codec != Codec::none || options.precision == Precision::float32) &&
+      options.discretisation.quadrature_tolerance >= 1e-6;
   return single ? AssemblyPrecision::single : AssemblyPrecision::full;
 }
 

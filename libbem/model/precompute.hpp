@@ -11,7 +11,7 @@ struct PrecomputeOptions {
   Precision precision = Precision::float32;  ///< of uncompressed matrices
   CodecOptions codec;
   bool tractions = true;  ///< also what loads and contact need: G and H_0^{-1} G_0
-  double window = 0;  ///< 0: the weakest that keeps the measured growth at or below 1
+  double window = 0;      ///< 0: the weakest that keeps the measured growth at or below 1
   bool measure_growth = true;
 };
 

@@ -30,8 +30,8 @@ enum class AssemblyPrecision { single, full };
 template <class T>
 class SlabAssembler {
  public:
-  /// Sizes the small matrices of the model (body forces), which the slabs fill. The model's geometry
-  /// and discretisation must be set; it must outlive this.
+  /// Sizes the small matrices of the model (body forces), which the slabs fill. The model's
+  /// geometry and discretisation must be set; it must outlive this.
   SlabAssembler(BodyModel& model, AssemblyPrecision precision, bool tractions);
 
   /// Rows of nodes [first, last); uses all worker threads.

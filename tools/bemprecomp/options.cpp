@@ -207,7 +207,8 @@ std::string Options::canonical_text() const {
   text += " --quadrature-tol " + to_text(quadrature_tolerance);
   text += " --model dynamic --codec " + std::string(codec_name(codec.codec));
   if (codec.codec == Codec::none)
-    text += std::string(" --precision ") + (precision == Precision::float32 ? "float32" : "float64");
+    text +=
+        std::string(" --precision ") + (precision == Precision::float32 ? "float32" : "float64");
   else
     text += " --codec-tol " + to_text(codec.tolerance);
   return text + " --corner-angle-deg none";

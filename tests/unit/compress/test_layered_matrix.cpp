@@ -12,7 +12,8 @@ FloatMatrix falling(int rows, int columns, float largest) {
   FloatMatrix m(rows, columns);
   for (int j = 0; j < columns; ++j)
     for (int i = 0; i < rows; ++i)
-      m(i, j) = largest * std::pow(0.7F, static_cast<float>(i + j)) * ((i * 7 + j * 3) % 2 ? 1 : -1);
+      m(i, j) =
+          largest * std::pow(0.7F, static_cast<float>(i + j)) * ((i * 7 + j * 3) % 2 ? 1 : -1);
   return m;
 }
 
@@ -58,9 +59,8 @@ TEST_CASE("products of layers agree with their entries on every instruction set"
       store_layers(layers, errors, data);
       data.resize(data.size() + 64);
       const Eigen::VectorXf x = Eigen::VectorXf::Random(37);
-      const Eigen::VectorXd expected =
-          load_layers(layers, data.data()).cast<double>() *
-          x.head(layers.stored_columns()).cast<double>();
+      const Eigen::VectorXd expected = load_layers(layers, data.data()).cast<double>() *
+                                       x.head(layers.stored_columns()).cast<double>();
       for (int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
         Eigen::VectorXf y = Eigen::VectorXf::Constant(rows, 2);

@@ -123,9 +123,8 @@ TEST_CASE("products, sparse, transposed and left products agree with the entries
   CHECK((y - sparse).norm() < 3e-6 * sparse.norm());
 
   y.setZero();
-  family->multiply_transposed_add({{0, x.col(0).data(), nullptr, 0, 1.0},
-                                   {2, x.col(1).data(), nullptr, 0, -3.0}},
-                                  {y.data()});
+  family->multiply_transposed_add(
+      {{0, x.col(0).data(), nullptr, 0, 1.0}, {2, x.col(1).data(), nullptr, 0, -3.0}}, {y.data()});
   const Eigen::VectorXd transposed =
       full[0].transpose() * x.col(0) - 3 * full[2].transpose() * x.col(1);
   CHECK((y - transposed).norm() < 3e-6 * transposed.norm());
