@@ -16,7 +16,7 @@ usage="usage: scripts/contact_scenes.sh [--threads N] [NAME...|quick|large|all]
   large   ${large[*]}
           (minutes each, archives of 3 to 4 GB, 7 GB of memory)
   all     both
-  NAME    one of these, or ${huge[*]} (very slow, see docs/performance.md)
+  NAME    one of these, or ${huge[*]} (ten minutes, see docs/performance.md)
   --threads N  of bemsim (1)"
 
 fail() {
@@ -50,9 +50,12 @@ shape() {  # NAME SHAPE OPTIONS...: a mesh
   "$bin/bemshape" "${@:2}" -o "$out/$1.obj"
 }
 
-archive() {  # NAME MATERIAL SCHEME DT [OPTIONS...]: an archive of a mesh, if there is none
-  [[ -f $out/$1.bem ]] ||
-    "$bin/bemprecomp" "$out/$1.obj" "scenes/contact/$2.json" -o "$out/$1.bem" --scheme "$3" --dt "$4" "${@:5}"
+archive() {  # NAME MATERIAL SCHEME DT [OPTIONS...]: an archive of a mesh, if there is none made like that
+  local made
+  made=$(cat "$out/$1.obj" "scenes/contact/$2.json" <(echo "${@:3}") | sha256sum)
+  [[ ! -f $out/$1.bem || $(cat "$out/$1.made" 2>/dev/null) != "$made" ]] || return 0
+  "$bin/bemprecomp" "$out/$1.obj" "scenes/contact/$2.json" -o "$out/$1.bem" --force --scheme "$3" --dt "$4" "${@:5}"
+  echo "$made" >"$out/$1.made"
 }
 
 make_bowl() { shape bowl bowl --radius 0.5 --thickness 0.05 --segments 48; }

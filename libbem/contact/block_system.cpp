@@ -1,115 +1,90 @@
 #include "contact/block_system.hpp"
 
-#include "algebra/lu.hpp"
-#include "base/error.hpp"
+#include "contact/block_lu.hpp"
 
-#include <Eigen/SparseLU>
+#include <algorithm>
+#include <map>
 
 namespace bem {
 namespace {
 
-constexpr double kSparseFill = 0.25;  ///< share of blocks below which sparse elimination is faster
-constexpr std::size_t kSparseSize = 40;    ///< contacts from which on it can be
-constexpr double kPivotThreshold = 0.1;    ///< sparse: share of the largest pivot that is enough
-constexpr std::size_t kDenseLimit = 2000;  ///< contacts of a dense system at most: 290 MB
-
-bool is_sparse(std::size_t contacts, std::size_t blocks) {
-  const double size = static_cast<double>(contacts);
-  return contacts >= kSparseSize && static_cast<double>(blocks) < kSparseFill * size * size;
-}
+/// Blocks of a problem that is solved with factorisations at most: 430 MB.
+constexpr std::size_t kMostBlocks = 6'000'000;
 
 }  // namespace
 
-struct BlockSystem::Sparse {
-  using Matrix = Eigen::SparseMatrix<double>;
-  Matrix matrix;
-  Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>> lu;
-};
-
 BlockSystem::BlockSystem(const FrictionProblem& problem)
-    : problem_(problem), position_(problem.contacts(), -1), sparse_(std::make_unique<Sparse>()) {
-  sparse_->lu.setPivotThreshold(kPivotThreshold);
+    : problem_(problem), group_(problem.contacts()), position_(problem.contacts(), -1) {
+  std::map<std::vector<int>, int> groups;  // by the contacts that act on theirs
+  for (int i = 0; i < problem.contacts(); ++i) {
+    const std::vector<int> row(problem.columns.begin() + problem.row_start[i],
+                               problem.columns.begin() + problem.row_start[i + 1]);
+    group_[i] = groups.try_emplace(row, static_cast<int>(groups.size())).first->second;
+  }
+  coupled_.resize(groups.size());
+  for (const auto& [row, group] : groups) {
+    for (int j : row) coupled_[group].push_back(group_[j]);
+    std::sort(coupled_[group].begin(), coupled_[group].end());
+    coupled_[group].erase(std::unique(coupled_[group].begin(), coupled_[group].end()),
+                          coupled_[group].end());
+  }
 }
 
 BlockSystem::~BlockSystem() = default;
 
 bool BlockSystem::fits(const FrictionProblem& problem) {
-  const std::size_t contacts = static_cast<std::size_t>(problem.contacts());
-  return contacts <= kDenseLimit || is_sparse(contacts, problem.blocks.size());
+  return problem.blocks.size() <= kMostBlocks;
+}
+
+/// Gives every active contact its place, and a factorisation its room.
+void BlockSystem::place(const std::vector<int>& active) {
+  active_ = active;
+  size_.assign(coupled_.size(), 0);
+  std::fill(position_.begin(), position_.end(), -1);
+  for (int i : active_) position_[i] = size_[group_[i]]++;
+  std::vector<int> begin(size_.size() + 1, 0);
+  for (std::size_t g = 0; g < size_.size(); ++g) begin[g + 1] = begin[g] + size_[g];
+  target_.clear();
+  for (int i : active_) target_.push_back(begin[group_[i]] + position_[i]);
 }
 
 bool BlockSystem::factorise(const std::vector<int>& active, const std::vector<Mat3>& left,
                             const std::vector<Mat3>& own) {
-  if (active != active_) {
-    active_ = active;
-    analysed_ = false;
-    std::fill(position_.begin(), position_.end(), -1);
-    for (std::size_t a = 0; a < active.size(); ++a) position_[active[a]] = static_cast<int>(a);
-  }
+  place(active);
   if (active_.empty()) return true;
-  std::size_t count = 0;
+  std::vector<int> unknowns;
+  std::vector<std::vector<int>> coupled(coupled_.size());
+  for (int size : size_) unknowns.push_back(3 * size);
+  for (std::size_t g = 0; g < coupled.size(); ++g)
+    if (size_[g] > 0)
+      for (int other : coupled_[g])
+        if (size_[other] > 0) coupled[g].push_back(other);
+  lu_ = std::make_unique<BlockLu>(std::move(unknowns), coupled);
+  fill(left, own);
+  return lu_->factorise();
+}
+
+void BlockSystem::fill(const std::vector<Mat3>& left, const std::vector<Mat3>& own) {
   for (int i : active_)
-    for (int k = problem_.row_start[i]; k < problem_.row_start[i + 1]; ++k)
-      count += position_[problem_.columns[k]] >= 0;
-  dense_.reset();
-  if (is_sparse(active_.size(), count)) return fill_sparse(left, own);
-  fill_dense(left, own);
-  return dense_ != nullptr;
-}
-
-void BlockSystem::fill_dense(const std::vector<Mat3>& left, const std::vector<Mat3>& own) {
-  const Eigen::Index n = static_cast<Eigen::Index>(3 * active_.size());
-  DenseMatrix<double> m = DenseMatrix<double>::Zero(n, n);
-  for (std::size_t a = 0; a < active_.size(); ++a) {
-    const int i = active_[a];
-    const Eigen::Index row = static_cast<Eigen::Index>(3 * a);
     for (int k = problem_.row_start[i]; k < problem_.row_start[i + 1]; ++k) {
-      const int b = position_[problem_.columns[k]];
-      if (b >= 0) m.block<3, 3>(row, 3 * b).noalias() = left[i] * problem_.blocks[k];
+      const int j = problem_.columns[k];
+      if (position_[j] < 0) continue;
+      auto block = lu_->block(group_[i], group_[j]).block<3, 3>(3 * position_[i], 3 * position_[j]);
+      block.noalias() = left[i] * problem_.blocks[k];
+      if (i == j) block += own[i];
     }
-    m.block<3, 3>(row, row) += own[i];
-  }
-  try {
-    dense_ = std::make_unique<Lu<double>>(std::move(m));
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::numerical) throw;
-  }
-}
-
-bool BlockSystem::fill_sparse(const std::vector<Mat3>& left, const std::vector<Mat3>& own) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t a = 0; a < active_.size(); ++a) {
-    const int i = active_[a];
-    for (int k = problem_.row_start[i]; k < problem_.row_start[i + 1]; ++k) {
-      const int b = position_[problem_.columns[k]];
-      if (b < 0) continue;
-      Mat3 block = left[i] * problem_.blocks[k];
-      if (problem_.columns[k] == i) block += own[i];
-      for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 3; ++x)
-          entries.emplace_back(3 * static_cast<int>(a) + x, 3 * b + y, block(x, y));
-    }
-  }
-  const Eigen::Index n = static_cast<Eigen::Index>(3 * active_.size());
-  sparse_->matrix.resize(n, n);
-  sparse_->matrix.setFromTriplets(entries.begin(), entries.end());
-  if (!analysed_) {
-    sparse_->lu.analyzePattern(sparse_->matrix);
-    analysed_ = true;
-  }
-  sparse_->lu.factorize(sparse_->matrix);
-  return sparse_->lu.info() == Eigen::Success;
 }
 
 void BlockSystem::solve(Eigen::VectorXd& b) const {
   if (active_.empty()) return;
-  if (!dense_) {
-    b = sparse_->lu.solve(b).eval();
-    return;
-  }
-  DenseMatrix<double> column = b;
-  dense_->solve(column);
-  b = column;
+  Eigen::VectorXd x(b.size());
+  for (std::size_t a = 0; a < active_.size(); ++a)
+    x.segment<3>(static_cast<Eigen::Index>(3) * target_[a]) =
+        b.segment<3>(static_cast<Eigen::Index>(3 * a));
+  lu_->solve(x);
+  for (std::size_t a = 0; a < active_.size(); ++a)
+    b.segment<3>(static_cast<Eigen::Index>(3 * a)) =
+        x.segment<3>(static_cast<Eigen::Index>(3) * target_[a]);
 }
 
 }  // namespace bem

@@ -231,6 +231,10 @@ CollisionDetector::~CollisionDetector() = default;
 CollisionDetector::CollisionDetector(CollisionDetector&&) noexcept = default;
 CollisionDetector& CollisionDetector::operator=(CollisionDetector&&) noexcept = default;
 
+bool CollisionDetector::is_allowed(int a, int b) const {
+  return state_->is_allowed(a, b);
+}
+
 std::vector<Contact> CollisionDetector::detect(const std::vector<SurfaceMotion>& motions) {
   State& state = *state_;
   require(motions.size() == state.surfaces.size(), "every surface has a motion");

@@ -53,6 +53,8 @@ class CollisionDetector {
   /// that is not keeps its inequality. The ends are free of penetration when no contact of such a
   /// call has gap_end < 0. O(n) for the boxes plus O(log n) per close pair.
   std::vector<Contact> detect(const std::vector<SurfaceMotion>& motions);
+  /// May the surfaces (planes follow them) touch each other, or is their pair ignored?
+  bool is_allowed(int a, int b) const;
 
  private:
   struct State;

@@ -1,5 +1,8 @@
 #include "contact/collision_scene.hpp"
 
+#include "contact/bounding_tree.hpp"
+#include "contact/penetration.hpp"
+#include "contact/surface_topology.hpp"
 #include "scene/motion.hpp"
 
 #include <algorithm>
@@ -63,7 +66,10 @@ CollisionScene::CollisionScene(const Scene& scene, const std::vector<Body>& bodi
       bodies_(bodies),
       obstacles_(std::move(obstacles)),
       detector_(make_detector(scene, bodies, obstacles_, joined_bodies)) {
-  for (const Body& body : bodies) friction_.push_back(body.spec().friction);
+  for (const Body& body : bodies) {
+    smallest_ = std::min(smallest_, body.model().geometry.extent);
+    friction_.push_back(body.spec().friction);
+  }
   for (const ObstacleMesh& o : obstacles_) friction_.push_back(o.spec->friction);
   for (const ObstacleSpec& o : scene.obstacles)
     if (std::holds_alternative<PlaneObstacle>(o.shape)) friction_.push_back(o.friction);
@@ -88,6 +94,43 @@ void CollisionScene::begin_step(double t, double dt) {
   }
 }
 
+std::vector<Triangle> CollisionScene::triangles(std::size_t surface) const {
+  return surface < bodies_.size() ? bodies_[surface].model().geometry.nodes.triangles
+                                  : obstacles_[surface - bodies_.size()].mesh.triangles;
+}
+
+std::vector<CollisionScene::Overlap> CollisionScene::overlaps() {
+  begin_step(0, 0);
+  std::vector<Overlap> out;
+  std::vector<BoundingBox> boxes;
+  for (const std::vector<Vec3>& surface : start_) {
+    boxes.emplace_back();
+    for (const Vec3& x : surface) extend(boxes.back(), {x, x});
+  }
+  const auto depth = [&](std::size_t a, std::size_t b) {
+    if (!overlap(boxes[a], boxes[b])) return 0.0;
+    const SurfaceTopology t = make_topology(triangles(b), static_cast<int>(start_[b].size()));
+    const bool closed = std::all_of(t.edges.begin(), t.edges.end(),
+                                    [](const auto& edge) { return edge.triangles[1] >= 0; });
+    return closed ? deepest_penetration(start_[a], t.triangles, start_[b]).depth : 0.0;
+  };
+  const auto add = [&](std::size_t a, const std::string& b, double by) {
+    if (by > scene_.contact.tolerance) out.push_back({bodies_[a].name(), b, by});
+  };
+  for (std::size_t a = 0; a < bodies_.size(); ++a) {
+    for (std::size_t b = a + 1; b < start_.size(); ++b) {
+      if (!detector_.is_allowed(static_cast<int>(a), static_cast<int>(b))) continue;
+      add(a, b < bodies_.size() ? bodies_[b].name() : obstacles_[b - bodies_.size()].spec->name,
+          std::max(depth(a, b), depth(b, a)));
+    }
+    for (const ObstacleSpec& o : scene_.obstacles)
+      if (const auto* plane = std::get_if<PlaneObstacle>(&o.shape))
+        add(a, o.name,
+            deepest_penetration(start_[a], CollisionPlane{plane->point, plane->normal}).depth);
+  }
+  return out;
+}
+
 ContactPair CollisionScene::pair_of(const Contact& contact) const {
   const auto bodies = static_cast<int>(bodies_.size());
   ContactPair pair;
@@ -105,8 +148,17 @@ ContactPair CollisionScene::pair_of(const Contact& contact) const {
   return pair;
 }
 
+std::vector<ContactPair> CollisionScene::detect_at_rest() {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) end_[b] = start_[b];
+  return detect();
+}
+
 std::vector<ContactPair> CollisionScene::detect(std::vector<Body>& bodies) {
   for (std::size_t b = 0; b < bodies.size(); ++b) end_[b] = bodies[b].end_positions();
+  return detect();
+}
+
+std::vector<ContactPair> CollisionScene::detect() {
   std::vector<SurfaceMotion> motions;
   for (std::size_t s = 0; s < start_.size(); ++s) motions.push_back({&start_[s], &end_[s]});
   std::vector<ContactPair> pairs;

@@ -20,17 +20,33 @@ class CollisionScene {
                  std::vector<ObstacleMesh> obstacles,
                  const std::vector<std::pair<int, int>>& joined_bodies);
 
+  /// Bodies and obstacles that are in each other where the bodies are now.
+  struct Overlap {
+    std::string a, b;  ///< names
+    double depth = 0;  ///< [m]
+  };
+  std::vector<Overlap> overlaps();
+
   /// Takes the positions at the start of the step from t to t + dt [s].
   void begin_step(double t, double dt);
+  /// Contacts if the bodies stayed where they are while obstacles move.
+  std::vector<ContactPair> detect_at_rest();
   /// Contacts for the bodies' predicted positions at its end.
   std::vector<ContactPair> detect(std::vector<Body>& bodies);
 
+  /// Size of the smallest body [m].
+  double smallest() const { return smallest_; }
+
  private:
+  std::vector<ContactPair> detect();
   ContactPair pair_of(const Contact& contact) const;
+
+  std::vector<Triangle> triangles(std::size_t surface) const;
 
   const Scene& scene_;
   const std::vector<Body>& bodies_;
   std::vector<ObstacleMesh> obstacles_;
+  double smallest_ = std::numeric_limits<double>::infinity();
   std::vector<double> friction_;                ///< by surface: bodies, mesh obstacles, planes
   std::vector<std::vector<Vec3>> start_, end_;  ///< by surface
   CollisionDetector detector_;

@@ -1,22 +1,12 @@
 #pragma once
 
-#include "contact/contact.hpp"
+#include "contact/contact_problem.hpp"
 #include "contact/friction_solver.hpp"
-#include "contact/mechanism.hpp"
 
 #include <functional>
 #include <map>
 
 namespace bem {
-
-/// A contact of the current step between surfaces; surface b of an obstacle has no body.
-struct ContactPair {
-  Contact contact;
-  int body_a = -1, body_b = -1;    ///< -1: an obstacle
-  Vec3 obstacle_a = Vec3::Zero();  ///< place of a point of an obstacle at the end of the step [m]
-  Vec3 obstacle_b = Vec3::Zero();
-  double friction = 0;
-};
 
 /// How well the constraints of a step were met.
 struct ConstraintStatistics {
@@ -61,30 +51,60 @@ class ConstraintSolver {
   std::optional<Holder> holder(int body) const;
 
   /// Finds the forces under which the bodies, which begin_step() must have started, meet all joints
-  /// and the given contacts, and leaves the bodies updated. Starts from the forces of the last call
-  /// for joints, for contacts with the same key, and for vertices and edges that have come to
-  /// another triangle or edge of the same surface.
-  ConstraintStatistics solve(const std::vector<ContactPair>& contacts);
+  /// and the given contacts, the latter to an error of `goal` [m], and leaves the bodies updated.
+  /// Starts from the forces of the last call for joints, for contacts with the same key, and for
+  /// vertices and edges that have come to another triangle or edge of the same surface.
+  ConstraintStatistics solve(const std::vector<ContactPair>& contacts, double goal = 0);
+
+  /// Forces and contacts of a solution, to go back to.
+  struct Solution {
+    std::vector<ContactPair> contacts;
+    std::vector<Vec3> forces;
+    std::vector<Eigen::MatrixXd> joint_forces;  ///< by mechanism
+  };
+  Solution solution() const;
+  /// Moves the bodies as they were when `solution` was taken in this step.
+  void restore(const Solution& solution);
 
   /// Adds the impulses of joints to the world and of obstacles in the step as solved [N s].
   void add_impulses(Impulses& sum) const;
 
+  const std::vector<ContactPair>& contacts() const { return placed_.pairs; }  ///< of the last call
   /// World forces on side a of the contacts of the last call [N].
   const std::vector<Vec3>& contact_forces() const { return forces_; }
 
   void observe_contacts(ContactObserver observer) { observer_ = std::move(observer); }
 
  private:
-  struct Problem;
+  /// Where the bodies are under the current forces, and how far from what is asked.
+  struct State {
+    double turn = 0;                    ///< largest change of a rotation by the last update
+    std::vector<Eigen::VectorXd> gaps;  ///< of the joints, by mechanism
+    Eigen::VectorXd u;                  ///< displacements of the contacts in their frames
+    bool joints_met = true;
+    double joint_residual = 0;    ///< [m]
+    double contact_residual = 0;  ///< largest natural map of a contact [m]
+    double residual() const { return joint_residual + contact_residual; }
+  };
+  /// A solution of the linear problem: where the forces go from here.
+  struct Direction {
+    Eigen::VectorXd contacts;             ///< change in the frames of the contacts
+    std::vector<Eigen::VectorXd> joints;  ///< by mechanism
+  };
+
   void place_contacts(const std::vector<ContactPair>& contacts);
   std::vector<Vec3> starting_forces() const;
-  void build(Problem& p);
   double update();
   Eigen::VectorXd contact_displacements() const;
-  std::vector<Eigen::VectorXd> joint_gaps() const;
+  Eigen::VectorXd local_forces() const;
   void apply_contact_forces();
-  Eigen::VectorXd solve_contacts(Problem& p, const std::vector<Eigen::VectorXd>& joint_changes,
-                                 const Eigen::VectorXd& u, ConstraintStatistics& statistics);
+  State evaluate(const ContactProblem* problem);
+  void move(const Direction& direction, double step);
+  void choose_start();
+  ConstraintStatistics solve_joints();
+  Direction find_direction(ContactProblem& problem, const State& state, double goal,
+                           ConstraintStatistics& statistics);
+  State search(const ContactProblem& problem, const Direction& direction, double reference);
   double joint_tolerance(const Mechanism& m) const;
 
   std::vector<Body>* bodies_;
@@ -94,11 +114,9 @@ class ConstraintSolver {
   std::vector<Vec3> start_centres_;  ///< by body: centre of mass at the start of the simulation
   double start_ = 0, dt_ = 0;
 
-  std::vector<ContactPair> contacts_;
-  std::vector<Mat3> frames_;              ///< columns: normal and two tangents
-  std::vector<std::vector<Port>> ports_;  ///< by body
-  std::vector<Vec3> forces_;              ///< on side a, world
-  std::vector<Vec3> guesses_;             ///< what the contact solver starts from
+  PlacedContacts placed_;
+  std::vector<Vec3> forces_;  ///< on side a, world
+  bool first_ = true;         ///< contacts have not been solved for in this step
   std::map<ContactKey, Vec3> known_forces_;
   ContactObserver observer_;
 };

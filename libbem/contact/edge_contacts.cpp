@@ -17,6 +17,7 @@ constexpr double kFlat = 1e-4;      ///< [rad]
 constexpr double kRim = 0.1;        ///< of the margin: length of an edge that is beside its end
 constexpr double kDeepest = 4;      ///< of the recovery depth
 constexpr double kSameSide = 0.5;   ///< cosine above which two normals hold on one side
+constexpr double kTurned = 0.9;     ///< cosine up to which the normal at the end is taken
 
 /// Both edges at one time, where they can touch.
 struct Approach {
@@ -146,6 +147,14 @@ class EdgePair {
     c.a = {a_.index, 2, {ends_a_[0], ends_a_[1], -1}, {1 - s, s, 0}};
     c.b = {b_.index, 2, {ends_b_[0], ends_b_[1], -1}, {1 - u, u, 0}};
     c.normal = approach.normal;
+    if (last && last_s == lines.s && last_u == lines.u) {
+      // where nothing changes to first order as the points slide along the edges
+      const Vec3 end = (a_.vertex(ends_a_[1], 1) - a_.vertex(ends_a_[0], 1))
+                           .cross(b_.vertex(ends_b_[1], 1) - b_.vertex(ends_b_[0], 1))
+                           .normalized() *
+                       approach.direction;
+      if (end.dot(approach.normal) > kTurned) c.normal = end;
+    }
     c.point = c.b.place(*b_.end);
     c.offset_start = c.a.place(*a_.start) - c.b.place(*b_.start);
     c.gap_start = c.normal.dot(c.offset_start);

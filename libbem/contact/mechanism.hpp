@@ -39,6 +39,8 @@ class Mechanism {
   /// Force changes that close gaps, or the columns of any other displacements.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& displacements);
   void add_forces(const Eigen::VectorXd& change);
+  const Eigen::MatrixXd& forces() const { return forces_; }
+  void set_forces(const Eigen::MatrixXd& forces) { forces_ = forces; }
   /// Writes the joint forces to the bodies, for the rotations of their last update.
   void apply_forces();
   /// Impulse of the joints that connect the bodies with the world in the step that their last

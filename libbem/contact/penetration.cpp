@@ -4,6 +4,8 @@
 #include "contact/closest_points.hpp"
 #include "contact/moving_surface.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace bem {
@@ -11,6 +13,20 @@ namespace {
 
 double squared_distance(const Vec3& p, const BoundingBox& box) {
   return (box.min - p).cwiseMax(p - box.max).cwiseMax(0.0).squaredNorm();
+}
+
+/// How often a closed surface goes round a point, by the solid angles of its triangles [Van
+/// Oosterom and Strackee 1983]. O(n).
+double winding_number(const Vec3& p, const std::vector<Triangle>& triangles,
+                      const std::vector<Vec3>& vertices) {
+  double sum = 0;
+  for (const Triangle& t : triangles) {
+    const Vec3 a = vertices[t[0]] - p, b = vertices[t[1]] - p, c = vertices[t[2]] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum +=
+        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (2 * kPi);
 }
 
 /// The triangle nearest to a point.
@@ -74,10 +90,14 @@ Penetration deepest_penetration(const std::vector<Vec3>& points,
   const SurfaceTopology topology = make_topology(triangles, static_cast<int>(vertices.size()));
   const MovingSurface surface{0, &topology, &vertices, &vertices};
   const BoundingTree tree(triangles, vertices);
+  const bool closed = std::all_of(topology.edges.begin(), topology.edges.end(),
+                                  [](const auto& edge) { return edge.triangles[1] >= 0; });
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (squared_distance(points[i], tree.nodes().front().box) > 0) continue;
     const double depth = -NearestTriangle(tree, surface, points[i]).signed_distance();
-    if (depth > deepest.depth) deepest = {depth, static_cast<int>(i)};
+    // next to a fold of a deformed surface the nearest triangle may be the wrong way round
+    if (depth > deepest.depth && (!closed || winding_number(points[i], triangles, vertices) > 0.5))
+      deepest = {depth, static_cast<int>(i)};
   }
   return deepest;
 }

@@ -10,8 +10,10 @@ struct Penetration {
   int vertex = -1;   ///< the deepest vertex, -1 if nothing penetrates
 };
 
-/// Deepest of the `points` inside a closed surface: its distance to the nearest triangle, whose
-/// pseudonormal tells inside from outside. O((n + m) log m) for n points in the surface's box.
+/// Deepest of the `points` inside a surface: its distance to the nearest triangle. Inside is
+/// what that triangle's pseudonormal and, for a closed surface, the winding number say. O((n + m)
+/// log m) for n points in the surface's box, and O(m) for every point that is deeper than those
+/// before.
 Penetration deepest_penetration(const std::vector<Vec3>& points,
                                 const std::vector<Triangle>& triangles,
                                 const std::vector<Vec3>& vertices);

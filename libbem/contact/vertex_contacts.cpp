@@ -17,7 +17,8 @@ constexpr double kSameSide = 0.5;          ///< least cosine between entered and
 constexpr double kSteepest = 0.6;          ///< sine of the steepest way from one to the other
 constexpr double kSameDirection = 0.9998;  ///< cosine above which two normals are one
 
-constexpr double kRim = 0.1;  ///< of the margin
+constexpr double kTurned = 0.9;  ///< cosine up to which the normal at the end is taken
+constexpr double kRim = 0.1;     ///< of the margin
 
 struct Candidate {
   int triangle;
@@ -188,8 +189,10 @@ class VertexContacts {
                const std::array<double, 3>& weights) {
     const auto [p, q, r] = b_.triangle(triangle, 1);
     const Vec3 point = weights[0] * p + weights[1] * q + weights[2] * r;
-    const double gap = normal.dot(end_ - point);
-    if (gap < limits_.margin) proposals_.push_back({time, normal, triangle, weights, point, gap});
+    const Vec3 turned = triangle_normal(b_, triangle, 1);
+    const Vec3& n = turned.dot(normal) > kTurned ? turned : normal;
+    const double gap = n.dot(end_ - point);
+    if (gap < limits_.margin) proposals_.push_back({time, n, triangle, weights, point, gap});
   }
 
   /// Triangles the vertex ends above, the nearest first.

@@ -178,9 +178,7 @@ FrameLoads Body::frame_loads() const {
     out.forces.push_back(frame_stages_.rotation[a] * force);
     out.torques.push_back(frame_stages_.rotation[a] * torque);
   }
-  Vec3 contact = Vec3::Zero();
-  for (std::size_t i = 0; i < contact_nodes_.size(); ++i)
-    contact += contact_forces_.segment<3>(static_cast<Eigen::Index>(3 * i));
+  const Vec3 contact = contact_force();
   if (is_rigid()) {
     out.impulse = dt_ * contact;
     out.angular_impulse = dt_ * contact_moment_;
@@ -195,15 +193,32 @@ FrameLoads Body::frame_loads() const {
   return out;
 }
 
+Vec3 Body::contact_force() const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < contact_nodes_.size(); ++i)
+    sum += contact_forces_.segment<3>(static_cast<Eigen::Index>(3 * i));
+  return sum;
+}
+
 double Body::update() {
   end_known_ = false;
   for (PrescribedLoad& p : loads_)
     for (int a = 0; a < stage_count_; ++a)
       p.stages.col(a) = p.load.values(stage_time(a), frame_stages_.rotation[a]);
-  if (elastic_) node_displacements_ = elastic_->displacements(loads_, nodal_forces());
+  const bool jointed = !joint_nodes_.empty();
+  if (elastic_ && jointed) node_displacements_ = elastic_->displacements(loads_, nodal_forces());
   force_rotation_ = frame_stages_.rotation;
   if (drag_.rate > 0) set_lean(frame_stages_.turn);
   frame_stages_ = frame_.stages(frame_loads(), drag_);
+  if (elastic_ && !jointed) {
+    // the torque of contact forces depends on the translation, the deformation on the rotation that
+    // they bring about
+    if (!contact_nodes_.empty()) {
+      force_rotation_ = frame_stages_.rotation;
+      frame_stages_ = frame_.stages(frame_loads(), drag_);
+    }
+    node_displacements_ = elastic_->displacements(loads_, nodal_forces());
+  }
   double turn = 0;
   for (int a = 0; a < stage_count_; ++a)
     turn = std::max(turn, (frame_stages_.rotation[a] - force_rotation_[a]).norm());
@@ -232,6 +247,33 @@ Vec3 Body::contact_position(std::size_t i) const {
   return frame_.place(frame_stages_, stage_count_ - 1,
                       shared_.model->geometry.nodes.vertices[contact_nodes_[i]],
                       contact_displacement(i));
+}
+
+/// Way of the frame at the end of the step by a unit acceleration of contact forces [s^2].
+double Body::contact_gain() const {
+  if (is_rigid()) return dt_ * dt_ * stage_times_[stage_count_ - 1];
+  const StageMatrix& gains =
+      drag_.rate > 0 ? elastic_->offset_gain() : frame_.position_by_acceleration();
+  return gains.row(stage_count_ - 1).sum();
+}
+
+Body::FrameCompliance Body::contact_frame_compliance() const {
+  const Mat3& r = frame_stages_.rotation.back();
+  FrameCompliance out;
+  out.translation = contact_gain() / frame_.mass();
+  out.rotation = contact_gain() * r * frame_.inverse_inertia() * r.transpose();
+  // a force that moves the body shortens the arms of all others
+  out.centre = is_rigid()
+                   ? frame_.translation()
+                   : Vec3(frame_stages_.translation.back() - out.translation * contact_force());
+  return out;
+}
+
+Vec3 Body::contact_lever(std::size_t i) const {
+  Vec3 x = shared_.model->geometry.nodes.vertices[contact_nodes_[i]];
+  if (elastic_)
+    x += node_displacements_.contact_without.segment<3>(static_cast<Eigen::Index>(3 * i));
+  return frame_stages_.rotation.back() * x;
 }
 
 Eigen::MatrixXd Body::compliance(Group rows, int row_stage, Group columns, int load_stage) const {

@@ -85,6 +85,19 @@ class Body {
   /// [m/N]; contact forces act over the whole step, contact positions are those at its end.
   Eigen::MatrixXd compliance(Group rows, int row_stage, Group columns, int load_stage) const;
 
+  /// How the frame of a free body answers contact forces, at the end of the step and in world axes.
+  struct FrameCompliance {
+    double translation = 0;        ///< [m/N]
+    Mat3 rotation = Mat3::Zero();  ///< rotation vector by torque [rad/(N m)]
+    Vec3 centre = Vec3::Zero();    ///< about which changes of contact forces turn the body [m]
+  };
+  FrameCompliance contact_frame_compliance() const;
+  /// Where a contact node is from the centre of mass, without what its contact forces deform, which
+  /// does not turn with the body; world axes.
+  Vec3 contact_lever(std::size_t i) const;
+  /// d(deformation at contact nodes)/d(contact forces) in body axes; deformable bodies only [m/N].
+  const Eigen::MatrixXd& contact_deformation() const { return elastic_->contact_compliance(); }
+
   /// World positions of all nodes at the end of the step that update() has computed.
   std::vector<Vec3> end_positions();
   /// Takes the end of the step as the new state. Throws ErrorCode::numerical if it is not finite.
@@ -112,6 +125,8 @@ class Body {
  private:
   double stage_time(int stage) const;
   FrameLoads frame_loads() const;
+  double contact_gain() const;
+  Vec3 contact_force() const;
   NodalForces nodal_forces() const;
   Vec3 joint_lever(std::size_t i, int stage) const;
   Vec3 joint_displacement(std::size_t i, int stage) const;

@@ -148,10 +148,11 @@ ElasticPart::Displacements ElasticPart::displacements(const std::vector<Prescrib
     if (!contact_nodes_.empty()) out.joint.col(a).noalias() += joint_contact_[a] * forces.contact;
   }
   if (contact_nodes_.empty()) return out;
-  out.contact = at(contact_nodes_, stages - 1);
-  out.contact.noalias() += contact_contact_ * forces.contact;
+  out.contact_without = at(contact_nodes_, stages - 1);
   for (int b = 0; b < stages && !joint_nodes_.empty(); ++b)
-    out.contact.noalias() += contact_joint_[b] * forces.joint.col(b);
+    out.contact_without.noalias() += contact_joint_[b] * forces.joint.col(b);
+  out.contact = out.contact_without;
+  out.contact.noalias() += contact_contact_ * forces.contact;
   return out;
 }
 

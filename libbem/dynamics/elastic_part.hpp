@@ -46,6 +46,7 @@ class ElasticPart {
   struct Displacements {
     Eigen::MatrixXd joint;
     Eigen::VectorXd contact;
+    Eigen::VectorXd contact_without;  ///< the forces on contact nodes
   };
   Displacements displacements(const std::vector<PrescribedLoad>& loads,
                               const NodalForces& forces) const;
@@ -54,6 +55,8 @@ class ElasticPart {
   /// d(displacement at `row_stage`)/d(force of stage `load_stage`) between groups of nodes [m/N].
   /// Forces on contact nodes act at all stages: `load_stage` is ignored for them.
   Eigen::MatrixXd compliance(Group rows, int row_stage, Group columns, int load_stage) const;
+
+  const Eigen::MatrixXd& contact_compliance() const { return contact_contact_; }
 
   /// d(offset)/d(acceleration) between stages [s^2].
   const StageMatrix& offset_gain() const { return offset_.gain(); }

@@ -44,6 +44,12 @@ FrictionMethod friction_method(ContactSolver solver) {
   return FrictionMethod::newton;
 }
 
+/// Penetration, relative to the size of a body, with which the search for contacts of a step ends
+/// after some passes.
+double penetration_allowed(int passes) {
+  return passes < 4 ? 0 : passes < 7 ? 2e-5 : 1e-4;
+}
+
 }  // namespace
 
 void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
@@ -97,6 +103,7 @@ Simulation::Simulation(const Scene& scene, ModelSource& source) : scene_(scene) 
   for (const JointSpec& j : scene_.joints)
     if (j.b) joined.emplace_back(static_cast<int>(j.a.body), static_cast<int>(j.b->body));
   collisions_.emplace(scene_, bodies_, std::move(obstacles), joined);
+  overlaps_ = collisions_->overlaps();
 }
 
 void Simulation::load(ModelSource& source) {
@@ -181,44 +188,71 @@ void Simulation::begin_step() {
   }
 }
 
-/// Adds contacts until the motion that they lead to breaks no others. A contact that is found again
-/// is taken as it is seen now; one that is not found any more stays.
-void Simulation::collide() {
-  constexpr int kMostPasses = 10;
+/// Solves for the known contacts, and adds up what it takes.
+void Simulation::solve_contacts(double goal) {
+  const double start = now();
+  const ConstraintStatistics last = statistics_;
+  statistics_ = constraints_->solve(contacts_.pairs(), goal);
+  statistics_.iterations += last.iterations;
+  statistics_.sweeps += last.sweeps;
+  statistics_.newton_steps += last.newton_steps;
+  times_.constraints += now() - start;
+}
+
+template <class Detect>
+std::vector<ContactPair> Simulation::timed(const Detect& detect) {
+  const double start = now();
+  std::vector<ContactPair> found = detect();
+  times_.collision += now() - start;
+  return found;
+}
+
+/// Starts from what touches at the start of the step and adds contacts until the motion that they
+/// lead to breaks no others. The best motion met goes to `best`.
+bool Simulation::find_contacts(bool friction, Attempt& best) {
+  constexpr int kMostPasses = 12, kDampedFrom = 4;
+  constexpr double kInexactness = 0.02;  // of the penetration
+  constexpr double kExact = 0.1;         // of the tolerance: errors of all steps add up to a creep
+  constexpr double kFirstGoal = 1e-4;    // of a body's size
   const double tolerance = scene_.contact.tolerance;
-  std::map<ContactKey, ContactPair> known;
   contacts_.clear();
+  contacts_.take(timed([&] { return collisions_->detect_at_rest(); }),
+                 {tolerance, false, friction});
+  if (!contacts_.empty()) solve_contacts(kFirstGoal * collisions_->smallest());
+  bool exact = false;
   for (int pass = 0;; ++pass) {
-    const double start = now();
-    bool broken = false;
-    double deepest = 0;
-    for (ContactPair& pair : collisions_->detect(bodies_)) {
-      const bool wanted = pair.contact.gap_end < (pass == 0 ? tolerance : -tolerance);
-      broken = broken || wanted;
-      deepest = std::max(deepest, -pair.contact.gap_end);
-      const auto it = known.find(pair.contact.key);
-      if (it != known.end())
-        it->second = std::move(pair);
-      else if (wanted)
-        known.emplace(pair.contact.key, std::move(pair));
+    const std::vector<ContactPair> found = timed([&] { return collisions_->detect(bodies_); });
+    const double allowed = std::max(tolerance, penetration_allowed(pass) * collisions_->smallest());
+    const KnownContacts::Finding now = KnownContacts::judge(found, -allowed);
+    statistics_.contacts_complete = !now.broken;
+    statistics_.penetration = now.deepest;
+    if (now.deepest < best.penetration) {
+      best = {now.deepest, statistics_, constraints_->solution()};
     }
-    const double solve = now();
-    times_.collision += solve - start;
-    if (!broken) break;
-    if (pass == kMostPasses) {
-      statistics_.contacts_complete = false;
-      statistics_.penetration = std::max(statistics_.penetration, deepest);
-      break;
-    }
-    contacts_.clear();
-    for (const auto& [key, pair] : known) contacts_.push_back(pair);
-    const ConstraintStatistics last = statistics_;
-    statistics_ = constraints_->solve(contacts_);
-    statistics_.iterations += last.iterations;
-    statistics_.sweeps += last.sweeps;
-    statistics_.newton_steps += last.newton_steps;
-    times_.constraints += now() - solve;
+    if (!now.broken && (exact || statistics_.contact_residual <= kExact * tolerance)) return true;
+    if (pass == kMostPasses) return false;
+    if (now.broken) contacts_.take(found, {-tolerance, pass >= kDampedFrom, friction});
+    exact = !now.broken;
+    solve_contacts(exact ? 0 : kInexactness * now.deepest);
   }
+}
+
+/// Contact of the step. Where it cannot be solved for, friction is left out, and in the end the
+/// motion taken that leaves the least penetration.
+void Simulation::collide() {
+  constexpr double kDeep = 5e-4;  // of the smallest body
+  Attempt best;
+  if (find_contacts(true, best)) return;
+  if (best.penetration > kDeep * collisions_->smallest() && find_contacts(false, best)) {
+    statistics_.contacts_met = false;
+    return;
+  }
+  const ConstraintStatistics last = statistics_;
+  statistics_ = best.statistics;
+  statistics_.iterations = last.iterations;
+  statistics_.sweeps = last.sweeps;
+  statistics_.newton_steps = last.newton_steps;
+  constraints_->restore(best.solution);
 }
 
 Vec3 Simulation::total_momentum() const {

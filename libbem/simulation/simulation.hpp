@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contact/collision_scene.hpp"
+#include "simulation/known_contacts.hpp"
 
 #include <optional>
 
@@ -42,10 +43,12 @@ class Simulation {
   const Scene& scene() const { return scene_; }
   /// Of the last step.
   const ConstraintStatistics& statistics() const { return statistics_; }
+  /// What is in each other before the first step.
+  const std::vector<CollisionScene::Overlap>& overlaps() const { return overlaps_; }
   /// Linear momentum since the start.
   const MomentumBalance& momentum() const { return momentum_; }
   /// Contacts of the last step and the world forces on their sides a [N].
-  const std::vector<ContactPair>& contacts() const { return contacts_; }
+  const std::vector<ContactPair>& contacts() const { return constraints_->contacts(); }
   const std::vector<Vec3>& contact_forces() const { return constraints_->contact_forces(); }
 
   void observe_contacts(ContactObserver observer) {
@@ -60,6 +63,16 @@ class Simulation {
   void load(ModelSource& source);
   std::vector<int> touched_nodes(const std::vector<int>& users, const BodyModel& model) const;
   void begin_step();
+  /// The best motion of a step so far.
+  struct Attempt {
+    double penetration = std::numeric_limits<double>::infinity();  ///< [m]
+    ConstraintStatistics statistics;
+    ConstraintSolver::Solution solution;
+  };
+  template <class Detect>
+  std::vector<ContactPair> timed(const Detect& detect);
+  void solve_contacts(double goal);
+  bool find_contacts(bool friction, Attempt& best);
   void collide();
   Vec3 total_momentum() const;
   void end_step();
@@ -70,7 +83,8 @@ class Simulation {
   std::vector<std::vector<int>> sharing_;  ///< deformable bodies by archive
   std::optional<ConstraintSolver> constraints_;
   std::optional<CollisionScene> collisions_;
-  std::vector<ContactPair> contacts_;
+  std::vector<CollisionScene::Overlap> overlaps_;
+  KnownContacts contacts_;
   ConstraintStatistics statistics_;
   MomentumBalance momentum_;
   PhaseTimes times_;

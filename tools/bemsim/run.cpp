@@ -82,6 +82,9 @@ class Run {
     bar_.finish();
     log_.detail(bytes_text(static_cast<double>(simulation_->matrix_bytes())) +
                 " of matrices from " + count_text(simulation_->archives(), "archive"));
+    for (const CollisionScene::Overlap& o : simulation_->overlaps())
+      log_.warning(in_quotes(o.a) + " and " + in_quotes(o.b) + " overlap at the start, by " +
+                   to_text(o.depth) + " m; move them apart");
     prepare_output_directory(options.output,
                              options.force ? ExistingOutput::replace : ExistingOutput::refuse);
     writers_ = make_writers(plan, options.output);

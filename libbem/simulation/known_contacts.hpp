@@ -1,0 +1,41 @@
+#pragma once
+
+#include "contact/contact_problem.hpp"
+
+#include <map>
+
+namespace bem {
+
+/// The contacts that a step is solved for, as detection after detection adds to them.
+class KnownContacts {
+ public:
+  void clear() { known_.clear(), replaced_.clear(), pairs_.clear(); }
+
+  /// What a detection finds at the end of a motion.
+  struct Finding {
+    bool broken = false;  ///< some gap is below what was asked for
+    double deepest = 0;   ///< largest penetration [m]
+  };
+  static Finding judge(const std::vector<ContactPair>& found, double least_gap);
+
+  struct Manner {
+    double least_gap = 0;  ///< below it a contact that is not known yet is added [m]
+    bool damped = false;   ///< what is known moves half the way to how it is seen now
+    bool friction = true;  ///< or none of it has any
+  };
+  /// Adds what is found and takes what is found again as it is seen now. What is not found any more
+  /// stays, but for a vertex or edge that has left a triangle or edge over a ridge for another one
+  /// of the same surface: it is held by that alone. Twice at most, so that nothing goes to and fro
+  /// for ever.
+  void take(const std::vector<ContactPair>& found, const Manner& manner);
+
+  bool empty() const { return pairs_.empty(); }
+  const std::vector<ContactPair>& pairs() const { return pairs_; }  ///< ascending by key
+
+ private:
+  std::map<ContactKey, ContactPair> known_;
+  std::map<ContactKey, int> replaced_;  ///< how often
+  std::vector<ContactPair> pairs_;
+};
+
+}  // namespace bem
