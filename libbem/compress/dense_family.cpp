@@ -8,6 +8,11 @@
 namespace bem {
 namespace {
 
+Eigen::VectorXd scaled_values(const SparseTerm& t) {
+  return t.factor *
+         Eigen::Map<const Eigen::VectorXd>(t.values, static_cast<Eigen::Index>(t.columns->size()));
+}
+
 /// Calls multiply(matrix, inputs, products) with all inputs of a matrix side by side, matrix by
 /// matrix, and adds the products to the outputs.
 template <class F>
@@ -51,9 +56,7 @@ template <class T>
 void DenseFamily<T>::multiply_add(const std::vector<SparseTerm>& terms,
                                   const std::vector<double*>& outputs) const {
   for (const SparseTerm& t : terms) {
-    const Eigen::VectorXd values =
-        t.factor *
-        Eigen::Map<const Eigen::VectorXd>(t.values, static_cast<Eigen::Index>(t.columns->size()));
+    const Eigen::VectorXd values = scaled_values(t);
     matrices_[t.matrix].multiply_add_columns(*t.columns, values.data(), outputs[t.output]);
   }
 }
@@ -130,9 +133,7 @@ template <class T>
 void ColumnFamily<T>::multiply_add(const std::vector<SparseTerm>& terms,
                                    const std::vector<double*>& outputs) const {
   for (const SparseTerm& t : terms) {
-    const Eigen::VectorXd values =
-        t.factor *
-        Eigen::Map<const Eigen::VectorXd>(t.values, static_cast<Eigen::Index>(t.columns->size()));
+    const Eigen::VectorXd values = scaled_values(t);
     matrices_[t.matrix].multiply_add_columns(slots_of(*t.columns), values.data(),
                                              outputs[t.output]);
   }

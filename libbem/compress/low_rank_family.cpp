@@ -236,6 +236,34 @@ void LowRankFamily::multiply_add(const std::vector<SparseTerm>& unsorted,
   });
 }
 
+FloatMatrix LowRankFamily::coupling(std::size_t slab, std::size_t block, int matrix) const {
+  const LowRankSlab& from = slabs_[slab];
+  const LowRankBlock& b = from.blocks[block];
+  const Place& p = places_[slab][block];
+  FloatMatrix out =
+      load_all(from.couplings[block * count_ + matrix], from.synthesis.data() + p.couplings[matrix],
+               b.output_rank(), b.input_rank());
+  out *= static_cast<float>(quantum_);
+  if (b.plain) return out;
+  const auto scales = [](const std::vector<float>& all, std::size_t first, int count) {
+    return Eigen::Map<const FloatVector>(all.data() + first, count);
+  };
+  return scales(from.output_scales, p.output_scales, b.output_rank()).asDiagonal() * out *
+         scales(from.input_scales, p.input_scales, b.input_rank()).asDiagonal();
+}
+
+FloatMatrix LowRankFamily::output_basis(std::size_t slab, std::size_t block) const {
+  const LowRankBlock& b = slabs_[slab].blocks[block];
+  return load_all(b.output_basis, slabs_[slab].synthesis.data() + places_[slab][block].output_basis,
+                  b.rows(), b.output_rank());
+}
+
+FloatMatrix LowRankFamily::input_basis(std::size_t slab, std::size_t block) const {
+  const LowRankBlock& b = slabs_[slab].blocks[block];
+  return load_all(b.input_basis, slabs_[slab].analysis.data() + places_[slab][block].analysis,
+                  b.input_rank(), b.columns());
+}
+
 void LowRankFamily::multiply_transposed_add(const std::vector<FamilyTerm>& unsorted,
                                             const std::vector<double*>& outputs) const {
   const std::vector<FamilyTerm> terms = sorted_by_matrix(unsorted);
@@ -246,42 +274,24 @@ void LowRankFamily::multiply_transposed_add(const std::vector<FamilyTerm>& unsor
     sums[s] = FloatMatrix::Zero(size, static_cast<Eigen::Index>(outputs.size()));
     for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
       const LowRankBlock& block = slab.blocks[b];
-      const Place& p = places_[s][b];
-      FloatMatrix synthesis, coupling;
-      if (!block.plain)
-        synthesis = load_all(block.output_basis, slab.synthesis.data() + p.output_basis,
-                             block.rows(), block.output_rank()) *
-                    Eigen::Map<const FloatVector>(slab.output_scales.data() + p.output_scales,
-                                                  block.output_rank())
-                        .asDiagonal();
+      FloatMatrix synthesis, coupled;
+      if (!block.plain) synthesis = output_basis(s, b);
       FloatMatrix coefficients = FloatMatrix::Zero(block.input_rank(), sums[s].cols());
       int loaded = -1;
       for (const FamilyTerm& t : terms) {
-        const Layers& layers = slab.couplings[b * count_ + t.matrix];
-        if (t.matrix != loaded)
-          coupling = load_all(layers, slab.synthesis.data() + p.couplings[t.matrix],
-                              block.output_rank(), block.input_rank());
+        if (t.matrix != loaded) coupled = coupling(s, b, t.matrix);
         loaded = t.matrix;
         const FloatVector x =
             (t.factor * Eigen::Map<const Eigen::VectorXd>(t.input + block.row_begin, block.rows()))
                 .cast<float>();
         const FloatVector y = block.plain ? x : FloatVector(synthesis.transpose() * x);
-        coefficients.col(t.output).noalias() += coupling.transpose() * y;
+        coefficients.col(t.output).noalias() += coupled.transpose() * y;
       }
-      coefficients *= static_cast<float>(quantum_);
       auto sum = sums[s].middleRows(block.column_begin, block.columns());
-      if (block.plain) {
+      if (block.plain)
         sum += coefficients;
-        continue;
-      }
-      coefficients.array().colwise() *=
-          Eigen::Map<const FloatVector>(slab.input_scales.data() + p.input_scales,
-                                        block.input_rank())
-              .array();
-      sum.noalias() += load_all(block.input_basis, slab.analysis.data() + p.analysis,
-                                block.input_rank(), block.columns())
-                           .transpose() *
-                       coefficients;
+      else
+        sum.noalias() += input_basis(s, b).transpose() * coefficients;
     }
   });
   for (const FloatMatrix& part : sums)
@@ -301,34 +311,18 @@ FloatMatrix LowRankFamily::multiply_left(const FloatMatrix& x, int matrix) const
       const LowRankSlab& slab = slabs_[s];
       for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
         const LowRankBlock& k = slab.blocks[b];
-        const Place& p = places_[s][b];
-        const Layers& layers = slab.couplings[b * count_ + matrix];
-        if (layers.stored_rows() == 0) continue;
-        FloatMatrix coupling = load_all(layers, slab.synthesis.data() + p.couplings[matrix],
-                                        k.output_rank(), k.input_rank());
-        coupling *= static_cast<float>(quantum_);
+        if (slab.couplings[b * count_ + matrix].stored_rows() == 0) continue;
         const auto in = rows.middleCols(k.row_begin, k.rows());
         auto to = sums.middleCols(k.column_begin, k.columns());
         if (k.plain) {
-          add_product(in, coupling, to);
+          add_product(in, coupling(s, b, matrix), to);
           continue;
         }
-        const Eigen::Map<const FloatVector> outputs(slab.output_scales.data() + p.output_scales,
-                                                    k.output_rank());
-        const Eigen::Map<const FloatVector> inputs(slab.input_scales.data() + p.input_scales,
-                                                   k.input_rank());
-        coupling = outputs.asDiagonal() * coupling * inputs.asDiagonal();
         FloatMatrix expanded = FloatMatrix::Zero(rows.rows(), k.output_rank());
-        add_product(in,
-                    load_all(k.output_basis, slab.synthesis.data() + p.output_basis, k.rows(),
-                             k.output_rank()),
-                    expanded);
+        add_product(in, output_basis(s, b), expanded);
         FloatMatrix coupled = FloatMatrix::Zero(rows.rows(), k.input_rank());
-        add_product(expanded, coupling, coupled);
-        add_product(
-            coupled,
-            load_all(k.input_basis, slab.analysis.data() + p.analysis, k.input_rank(), k.columns()),
-            to);
+        add_product(expanded, coupling(s, b, matrix), coupled);
+        add_product(coupled, input_basis(s, b), to);
       }
     }
     out.middleRows(first, rows.rows()) = sums;
@@ -382,30 +376,18 @@ Eigen::MatrixXd LowRankFamily::block(int matrix, const std::vector<int>& rows,
     if (positions_in(rows, slab.row_begin, slab.row_end).empty()) return;
     for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
       const LowRankBlock& k = slab.blocks[b];
-      const Place& p = places_[s][b];
       const std::vector<int> r = positions_in(rows, k.row_begin, k.row_end);
       const std::vector<int> c = positions_in(columns, k.column_begin, k.column_end);
       if (r.empty() || c.empty()) continue;
-      FloatMatrix entries =
-          load_all(slab.couplings[b * count_ + matrix], slab.synthesis.data() + p.couplings[matrix],
-                   k.output_rank(), k.input_rank());
       const std::vector<int> in_rows = relative(rows, r, k.row_begin);
       const std::vector<int> in_columns = relative(columns, c, k.column_begin);
-      if (k.plain) {
+      FloatMatrix entries = coupling(s, b, matrix);
+      if (k.plain)
         entries = FloatMatrix(entries(in_rows, in_columns));
-      } else {
-        const FloatMatrix left = load_all(k.output_basis, slab.synthesis.data() + p.output_basis,
-                                          k.rows(), k.output_rank())(in_rows, Eigen::all);
-        const FloatMatrix right = load_all(k.input_basis, slab.analysis.data() + p.analysis,
-                                           k.input_rank(), k.columns())(Eigen::all, in_columns);
-        const Eigen::Map<const FloatVector> outputs(slab.output_scales.data() + p.output_scales,
-                                                    k.output_rank());
-        const Eigen::Map<const FloatVector> inputs(slab.input_scales.data() + p.input_scales,
-                                                   k.input_rank());
-        entries =
-            FloatMatrix(left * outputs.asDiagonal() * entries * (inputs.asDiagonal() * right));
-      }
-      out(r, c) = quantum_ * entries.cast<double>();
+      else
+        entries = FloatMatrix(output_basis(s, b)(in_rows, Eigen::all) * entries *
+                              input_basis(s, b)(Eigen::all, in_columns));
+      out(r, c) = entries.cast<double>();
     }
   });
   return out;

@@ -76,6 +76,11 @@ class LowRankFamily : public MatrixFamily {
   };
   class SlabProduct;
 
+  /// Parts of a block as matrices: X = Q C P with all scales in C, or X = C if it is plain.
+  FloatMatrix coupling(std::size_t slab, std::size_t block, int matrix) const;
+  FloatMatrix output_basis(std::size_t slab, std::size_t block) const;
+  FloatMatrix input_basis(std::size_t slab, std::size_t block) const;
+
   std::size_t size_;
   int count_;
   double quantum_;
