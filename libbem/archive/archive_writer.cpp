@@ -1,6 +1,7 @@
 #include "archive/archive_writer.hpp"
 
 #include "archive/archive_layout.hpp"
+#include "archive/haar_storage.hpp"
 #include "archive/low_rank_storage.hpp"
 #include "archive/user_block.hpp"
 #include "base/hdf5.hpp"
@@ -182,6 +183,8 @@ class MatrixWriter {
       write_dense(paths, *full);
     else if (const auto* compressed = dynamic_cast<const LowRankFamily*>(&family))
       write_low_rank(file_, group, *compressed, [this](std::size_t bytes) { report(bytes); });
+    else if (const auto* haar = dynamic_cast<const HaarFamily*>(&family))
+      write_haar(file_, group, *haar, [this](std::size_t bytes) { report(bytes); });
     else
       throw Error(ErrorCode::internal, "an archive cannot hold matrices of this codec");
   }

@@ -229,14 +229,20 @@ std::unique_ptr<MatrixFamily> HaarBuilder::finish() {
   const double all = selection_.seen().squares();
   require(std::isfinite(all), "the entries of matrices are finite");
   const double dropped = std::max(0.0, all - squares_of_parts());
-  const double wanted =
-      options_.ratio > 0 && all > 0 ? std::sqrt(dropped / all) : options_.tolerance;
-  PackedRows rows =
-      haar_half_precision(wanted)
-          ? PackedRows(PackedFormat::half, PackedRows::scale_for(selection_.seen().largest()))
-          : PackedRows();
-  const double rounded = move_parts_to(rows);
-  error_ = all > 0 ? std::sqrt((dropped + rounded) / all) : 0;
+  const bool by_ratio = options_.ratio > 0;
+  const double wanted = by_ratio && all > 0 ? std::sqrt(dropped / all) : options_.tolerance;
+  const auto pack = [&](PackedRows empty) {
+    const double rounded = pack_parts(empty);
+    error_ = all > 0 ? std::sqrt((dropped + rounded) / all) : 0;
+    return empty;
+  };
+  PackedRows rows;
+  const bool half = haar_half_precision(wanted);
+  if (half)
+    rows = pack(PackedRows(PackedFormat::half, PackedRows::scale_for(selection_.seen().largest())));
+  // a few numbers may be rounded worse than many
+  if (!half || (!by_ratio && error_ > options_.tolerance)) rows = pack(PackedRows());
+  parts_.clear();
   return std::make_unique<HaarFamily>(3 * static_cast<std::size_t>(nodes_), count_,
                                       std::move(rows));
 }
@@ -254,8 +260,8 @@ double HaarBuilder::squares_of_parts() const {
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
-/// All rows in their order; returns the sum of the squared rounding errors.
-double HaarBuilder::move_parts_to(PackedRows& to) {
+/// Appends all rows in their order; returns the sum of the squared rounding errors.
+double HaarBuilder::pack_parts(PackedRows& to) const {
   const std::size_t rows = 3 * static_cast<std::size_t>(nodes_) * static_cast<std::size_t>(count_);
   std::vector<std::pair<const PackedRows*, std::size_t>> places(rows);
   for (const Part& part : parts_)
@@ -267,7 +273,6 @@ double HaarBuilder::move_parts_to(PackedRows& to) {
     from->unpack(row, columns, values);
     squared_error += to.add_row(columns.data(), values.data(), values.size());
   }
-  parts_.clear();
   return squared_error;
 }
 

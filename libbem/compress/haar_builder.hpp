@@ -49,7 +49,7 @@ class HaarBuilder : public FamilyBuilder<float> {
   void collect(std::size_t coefficients_per_task, const F& transform);
   void drop_small();
   double squares_of_parts() const;
-  double move_parts_to(PackedRows& to);
+  double pack_parts(PackedRows& to) const;
 
   int nodes_, count_;
   CodecOptions options_;

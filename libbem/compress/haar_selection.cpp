@@ -8,7 +8,7 @@
 namespace bem {
 namespace {
 
-constexpr double kHalfError = 0x1p-11;  // relative, of rounding to half precision
+constexpr double kHalfError = 2.5e-4;  // relative, of many numbers rounded to half precision
 constexpr int kDropped = 16;            // bits of a float that do not count for its class
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <string>
 
 namespace bem {
 namespace {
@@ -83,6 +84,10 @@ class Columns {
   std::uint32_t column_ = static_cast<std::uint32_t>(-1);
 };
 
+void check(bool right, const char* what) {
+  if (!right) throw Error(ErrorCode::invalid_input, std::string("not so: ") + what);
+}
+
 template <class Values>
 float multiply_row(const std::uint8_t* gaps, Values values, std::size_t count, const float* x) {
   constexpr std::size_t kSums = 4;  // additions do not wait for each other
@@ -143,27 +148,26 @@ PackedRows PackedRows::from_parts(PackedFormat format, float scale,
   PackedRows out(format, scale);
   std::size_t entries = 0, at = 0;
   for (std::size_t r = 0; 2 * r < table.size(); ++r) {
-    require(table[2 * r] >= 0 && table[2 * r + 1] >= 0, "rows have no negative sizes");
+    check(table[2 * r] >= 0 && table[2 * r + 1] >= 0, "rows have no negative sizes");
     const auto count = static_cast<std::size_t>(table[2 * r]);
     const std::size_t end = at + static_cast<std::size_t>(table[2 * r + 1]);
-    require(end <= gaps.size(), "the gaps of a row are there");
+    check(end <= gaps.size(), "the gaps of a row are there");
     std::int64_t column = -1;
     for (std::size_t i = 0; i < count; ++i) {
-      require(at < end && gap_length(gaps[at]) <= end - at, "every entry has its gap");
+      check(at < end && gap_length(gaps[at]) <= end - at, "every entry has its gap");
       column +=
           1 + static_cast<std::int64_t>(gaps[at] < kTwoBytes ? gaps[at] : long_gap(&gaps[at]));
       at += gap_length(gaps[at]);
     }
-    require(at == end && column < columns, "the entries of a row are within the matrix");
+    check(at == end && column < columns, "the entries of a row are within the matrix");
     entries += count;
     out.value_ends_.push_back(entries);
     out.gap_ends_.push_back(end);
   }
-  require(at == gaps.size() && entries * out.value_bytes() == values.size(),
-          "all data are of rows");
+  check(at == gaps.size() && entries * out.value_bytes() == values.size(), "all data are of rows");
   if (format == PackedFormat::single)
     for (std::size_t i = 0; i < entries; ++i)
-      require(std::isfinite(Singles{values.data()}[i]), "values are finite");
+      check(std::isfinite(Singles{values.data()}[i]), "values are finite");
   out.gaps_ = std::move(gaps);
   out.values_ = std::move(values);
   return out;

@@ -25,7 +25,7 @@ class PackedRows {
   void append(const PackedRows& rows);
 
   /// The rows whose parts are given: entries and bytes of gaps of each, then the data of all.
-  /// Throws ErrorCode::internal if they do not fit together, with columns beyond `columns` or
+  /// Throws ErrorCode::invalid_input if they do not fit together, with columns beyond `columns` or
   /// numbers that are not finite.
   static PackedRows from_parts(PackedFormat format, float scale,
                                const std::vector<std::int32_t>& table,

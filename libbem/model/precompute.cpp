@@ -1,7 +1,7 @@
 #include "model/precompute.hpp"
 
 #include "base/error.hpp"
-#include "compress/dense_family.hpp"
+#include "compress/direct_builder.hpp"
 #include "compress/low_rank_builder.hpp"
 #include "model/balance.hpp"
 #include "model/growth.hpp"
@@ -116,28 +116,32 @@ AssemblyPrecision assembly_precision(const PrecomputeOptions& options) {
   return single ? AssemblyPrecision::single : AssemblyPrecision::full;
 }
 
+/// The family of a builder that has all rows, and the error of it.
 template <class T>
-void compute_uncompressed(BodyModel& model, const PrecomputeOptions& options,
-                          const Progress& progress) {
-  constexpr int kSlabNodes = 32;
+std::unique_ptr<MatrixFamily> finish(FamilyBuilder<T>& builder, double& error) {
+  auto family = builder.finish();
+  error = builder.error();
+  return family;
+}
+
+template <class T>
+void compute_directly(BodyModel& model, const PrecomputeOptions& options,
+                      const Progress& progress) {
   const int n = static_cast<int>(model.nodes());
   SlabAssembler<T> assembler(model, assembly_precision(options), options.tractions);
   Builders<T> builders;
-  const auto dense = [&](int count) {
-    return std::make_unique<DenseBuilder<T>>(3 * model.nodes(), count);
-  };
-  builders.h = dense(assembler.lag_count());
-  if (options.tractions) builders.g = dense(assembler.lag_count());
+  builders.h = make_direct_builder<T>(options.codec, n, assembler.lag_count());
+  if (options.tractions)
+    builders.g = make_direct_builder<T>(options.codec, n, assembler.lag_count());
   std::vector<InitialMatrix> h = initial_matrices(model), g;
   if (options.tractions) g = initial_matrices(model);
-  std::vector<Slab> slabs;
-  for (int first = 0; first < n; first += kSlabNodes)
-    slabs.push_back({first, std::min(n, first + kSlabNodes), {}});
-  assemble_all(assembler, model, slabs, builders, h, g, progress);
-  model.h = builders.h->finish();
-  if (builders.g) model.g = builders.g->finish();
+  assemble_all(assembler, model, direct_slabs(options.codec, n), builders, h, g, progress);
+  ModelReport::CodecErrors& errors = model.report.codec_errors;
+  model.h = finish(*builders.h, errors.h);
+  if (builders.g) model.g = finish(*builders.g, errors.g);
   for (std::size_t i = 0; i < h.size(); ++i)
-    invert_dense(model, std::move(h[i]), options.tractions ? &g[i] : nullptr, progress);
+    invert_dense(model, std::move(h[i]), options.tractions ? &g[i] : nullptr, options.codec,
+                 progress);
 }
 
 /// What the builders of a compressed model need to know before they see all rows, from a sample.
@@ -192,12 +196,9 @@ void compute_compressed(BodyModel& model, const PrecomputeOptions& options,
   }
   std::vector<InitialMatrix> h = initial_matrices(model), none;
   assemble_all(assembler, model, slabs, builders, h, none, progress);
-  model.h = builders.h->finish();
-  model.report.codec_errors.h = builders.h->error();
-  if (builders.g) {
-    model.g = builders.g->finish();
-    model.report.codec_errors.g = builders.g->error();
-  }
+  ModelReport::CodecErrors& errors = model.report.codec_errors;
+  model.h = finish(*builders.h, errors.h);
+  if (builders.g) model.g = finish(*builders.g, errors.g);
   for (std::size_t i = 0; i < h.size(); ++i) {
     std::unique_ptr<MatrixFamily> g;
     if (options.tractions) g = builders.initial_g[i]->finish();
@@ -246,9 +247,9 @@ BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
   if (options.codec.codec == Codec::lowrank)
     compute_compressed(model, options, progress);
   else if (options.precision == Precision::float32)
-    compute_uncompressed<float>(model, options, progress);
+    compute_directly<float>(model, options, progress);
   else
-    compute_uncompressed<double>(model, options, progress);
+    compute_directly<double>(model, options, progress);
   if (progress) progress("static balance", 0);
   compute_balance(model);
   model.window = options.window > 0 ? options.window : 1;
