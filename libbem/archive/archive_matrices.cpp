@@ -228,7 +228,7 @@ TractionData Archive::load_tractions(const std::vector<int>& nodes,
     if (place.group == lags_path("g"))
       data.lags = loading.load_columns(place, columns);
     else if (place.group.find("traction_response") != std::string::npos)
-      data.response.push_back(loading.load_columns(place, columns));
+      data.initial.push_back(loading.load_columns(place, columns));
   }
   return data;
 }

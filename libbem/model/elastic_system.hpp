@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/initial_solver.hpp"
 #include "model/rigid_projection.hpp"
 
 #include <cmath>
@@ -60,6 +61,17 @@ struct SpectralState {
   std::vector<Eigen::VectorXcd> acceleration;  ///< z, 6
 };
 
+/// Solutions of the last steps of a body, from which an iterative one starts.
+class SolutionMemory {
+ public:
+  /// Of a component; empty at first.
+  Eigen::MatrixXcd extrapolated(int component) const;
+  void add(int component, Eigen::VectorXcd solution);
+
+ private:
+  std::vector<std::vector<Eigen::VectorXcd>> last_;  ///< [component], newest first
+};
+
 /// The linear part of a time step: products with the history, solution at lag 0, removal of rigid
 /// motion. Refers to a model; holds no state of a motion.
 class ElasticSystem {
@@ -78,8 +90,9 @@ class ElasticSystem {
                          Eigen::MatrixXd& component_sums) const;
 
   /// Displacements without rigid part for the history right-hand sides of several bodies. Reads
-  /// H_0^{-1} once for all of them.
-  std::vector<SpectralState> solve(const std::vector<Eigen::MatrixXd>& component_sums) const;
+  /// H_0^{-1} once for all of them. `memories` of the bodies help an iterative solution.
+  std::vector<SpectralState> solve(const std::vector<Eigen::MatrixXd>& component_sums,
+                                   const std::vector<SolutionMemory*>& memories = {}) const;
 
   /// Adds the effect of inputs at the current step (inputs x s stage values).
   void add_inputs(const InputColumns& columns, const Eigen::MatrixXd& stages,
@@ -109,8 +122,8 @@ class ElasticSystem {
   InputColumns make_columns(std::vector<Eigen::MatrixXd> lags,
                             const std::vector<Eigen::MatrixXcd>& initial) const;
 
-  /// H_0^{-1} v by initial component.
-  Eigen::MatrixXcd apply_inverse(int component, const Eigen::MatrixXcd& v) const;
+  /// Solves with H_0 of an initial component.
+  const InitialSolver& solver(int component) const { return *solvers_[component]; }
 
  private:
   Eigen::MatrixXd stages(const std::vector<Eigen::VectorXcd>& spectral) const;
@@ -118,6 +131,7 @@ class ElasticSystem {
   const BodyModel& model_;
   double window_;
   Scheme scheme_;
+  std::vector<std::unique_ptr<InitialSolver>> solvers_;
   RigidProjection projection_;
   InputColumns body_force_;
 };
