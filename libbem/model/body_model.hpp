@@ -28,6 +28,15 @@ enum class ModelKind {
   rigid     ///< geometry and mass alone
 };
 
+/// Where surface loads, contacts and joints may act on a body.
+enum class Loads { all, some, none };
+
+/// How a step solves with the matrices of lag 0.
+enum class InverseKind {
+  dense,     ///< with the stored inverse, from a dense factorisation
+  iterative  ///< with H_0 itself
+};
+
 /// Everything that is precomputed for one body. Lag matrices are numbered as in LaneLayout and
 /// Scheme, (lag-1)*components + m for lags 1..history_length; of lag 0 there is one family per
 /// initial component: its real part and, where it is complex, its imaginary part. Unknowns are
@@ -36,11 +45,13 @@ struct BodyModel {
   ModelKind kind = ModelKind::dynamic;
   BodyGeometry geometry;
   Discretisation discretisation;
+  Loads loads = Loads::all;
+  std::vector<int> loaded_nodes;  ///< of Loads::some: which, ascending; others' columns are zero but for rounding
   double window = 1;  ///< factor per lag on all weights, see docs/method.md
   Codec codec = Codec::none;
   Precision precision = Precision::float32;  ///< of uncompressed matrices
 
-  std::unique_ptr<MatrixFamily> h, g;                  ///< 3N x 3N, lags >= 1
+  std::unique_ptr<MatrixFamily> h, g;                ///< 3N x 3N, lags >= 1; no g: Loads::none
   std::vector<Eigen::MatrixXd> body_force;             ///< [D_k Q_k], 3N x 6, lags >= 1
   std::vector<Eigen::MatrixXcd> initial_body_force;    ///< [D_0 Q_0] by initial component, 3N x 6
   /// Either H_0^{-1} and H_0^{-1} G_0, or H_0 and G_0, which are solved with in every step; the

@@ -1,6 +1,7 @@
 #include "model/initial_solver.hpp"
 
 #include "algebra/gmres.hpp"
+#include "algebra/lu.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "compress/complex_product.hpp"
@@ -34,7 +35,8 @@ class DirectSolver : public InitialSolver {
   const MatrixFamily& inverse_;
 };
 
-/// The inverses of diagonal blocks.
+/// The inverses of diagonal blocks, in the precision of Scalar, which is complex.
+template <class Scalar>
 class BlockDiagonal {
  public:
   BlockDiagonal(const MatrixFamily& h, int nodes) {
@@ -44,7 +46,7 @@ class BlockDiagonal {
       std::vector<int> indices(3 * static_cast<std::size_t>(ranges_[i].size()));
       std::iota(indices.begin(), indices.end(), 3 * ranges_[i].begin);
       const Eigen::MatrixXcd block = complex_block(h, indices, indices);
-      inverses_[i] = block.partialPivLu().inverse().cast<std::complex<float>>();
+      inverses_[i] = block.partialPivLu().inverse().template cast<Scalar>();
       require(inverses_[i].allFinite(), "the diagonal blocks of H_0 can be inverted");
     }
   }
@@ -52,16 +54,16 @@ class BlockDiagonal {
   Eigen::MatrixXcd apply(const Eigen::MatrixXcd& b, bool transposed) const {
     Eigen::MatrixXcd out(b.rows(), b.cols());
     parallel_for(ranges_.size(), [&](std::size_t i) {
-      const Eigen::MatrixXcf& inverse = inverses_[i];
+      const DenseMatrix<Scalar>& inverse = inverses_[i];
       const auto from = b.middleRows(3 * ranges_[i].begin, inverse.rows());
       for (Eigen::Index c = 0; c < b.cols(); ++c) {  // each column on its own: same bits always
-        const Eigen::VectorXcf x = from.col(c).cast<std::complex<float>>();
-        Eigen::VectorXcf y(x.size());
+        const Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x = from.col(c).template cast<Scalar>();
+        Eigen::Matrix<Scalar, Eigen::Dynamic, 1> y(x.size());
         if (transposed)
           y.noalias() = inverse.transpose() * x;
         else
           y.noalias() = inverse * x;
-        out.col(c).segment(3 * ranges_[i].begin, y.size()) = y.cast<Complex>();
+        out.col(c).segment(3 * ranges_[i].begin, y.size()) = y.template cast<Complex>();
       }
     });
     return out;
@@ -85,9 +87,10 @@ class BlockDiagonal {
   }
 
   std::vector<Range> ranges_;
-  std::vector<Eigen::MatrixXcf> inverses_;
+  std::vector<DenseMatrix<Scalar>> inverses_;
 };
 
+template <class Scalar>
 class IterativeSolver : public InitialSolver {
  public:
   IterativeSolver(const MatrixFamily& h, int nodes, double tolerance)
@@ -140,22 +143,21 @@ class IterativeSolver : public InitialSolver {
   }
 
   const MatrixFamily& h_;
-  BlockDiagonal preconditioner_;
+  BlockDiagonal<Scalar> preconditioner_;
   double tolerance_;
 };
-
-/// What the matrices know, and a little more.
-double solver_tolerance(const BodyModel& model) {
-  if (model.codec != Codec::none) return 1e-6;
-  return model.precision == Precision::float32 ? 1e-8 : 1e-13;
-}
 
 }  // namespace
 
 std::unique_ptr<InitialSolver> make_initial_solver(const BodyModel& model, int component) {
   if (!model.inverse.empty()) return std::make_unique<DirectSolver>(*model.inverse[component]);
-  return std::make_unique<IterativeSolver>(
-      *model.initial_h[component], static_cast<int>(model.nodes()), solver_tolerance(model));
+  const MatrixFamily& h = *model.initial_h[component];
+  const int nodes = static_cast<int>(model.nodes());
+  // to what the matrices know, and a little more
+  if (model.codec == Codec::none && model.precision == Precision::float64)
+    return std::make_unique<IterativeSolver<Complex>>(h, nodes, 1e-13);
+  return std::make_unique<IterativeSolver<std::complex<float>>>(
+      h, nodes, model.codec == Codec::none ? 1e-7 : 1e-6);
 }
 
 }  // namespace bem

@@ -10,7 +10,9 @@ struct PrecomputeOptions {
   Discretisation discretisation;
   Precision precision = Precision::float32;  ///< of uncompressed matrices
   CodecOptions codec;
-  bool tractions = true;  ///< also what loads and contact need: G and H_0^{-1} G_0
+  InverseKind inverse = InverseKind::dense;
+  Loads loads = Loads::all;       ///< what is kept of G and H_0^{-1} G_0
+  std::vector<int> loaded_nodes;  ///< of Loads::some, ascending; needs a codec
   double window = 0;      ///< 0: the weakest that keeps the measured growth at or below 1
   bool measure_growth = true;
 };

@@ -24,8 +24,8 @@ class TractionResponse {
 /// From the stored H_0^{-1} G_0.
 std::unique_ptr<TractionResponse> stored_response(std::shared_ptr<const MatrixFamily> response);
 
-/// From the stored G_0: its columns are solved for when they are asked for, and remembered as long
-/// as there is room for them. The solver must outlive it. Thread safe.
+/// From the stored G_0: its columns are solved for when they are asked for, and remembered in
+/// single precision as long as there is room for them. The solver must outlive it. Thread safe.
 std::unique_ptr<TractionResponse> solved_response(std::shared_ptr<const MatrixFamily> g,
                                                   const InitialSolver& solver);
 
