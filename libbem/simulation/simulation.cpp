@@ -18,7 +18,8 @@ double now() {
 
 std::size_t bytes_of(const BodyModel& m) {
   std::size_t bytes = m.h->bytes();
-  for (const auto& inverse : m.inverse) bytes += inverse->bytes();
+  for (const auto* families : {&m.inverse, &m.initial_h})
+    for (const auto& family : *families) bytes += family->bytes();
   return bytes;
 }
 
@@ -158,9 +159,20 @@ void Simulation::load(ModelSource& source) {
 /// Nodes that joints or contacts may act on, of bodies that share a model.
 std::vector<int> Simulation::touched_nodes(const std::vector<int>& users,
                                            const BodyModel& model) const {
-  std::vector<char> touched(model.nodes(), scene_.contact.enabled);
+  std::vector<char> touched(model.nodes(), 0), available(model.nodes(), model.loads == Loads::all);
+  for (int node : model.loaded_nodes) available[node] = 1;
+  if (scene_.contact.enabled) touched = available;
   for (int b : users)
-    for (const JointNode& n : plan_.nodes[b]) touched[n.node] = 1;
+    for (const JointNode& n : plan_.nodes[b]) {
+      if (!available[n.node])
+        throw Error(ErrorCode::archive,
+                    where(scene_.bodies[b].archive.location) + ": the archive " +
+                        in_quotes(scene_.bodies[b].archive.written) +
+                        " was made without loads on a vertex of the body " +
+                        in_quotes(scene_.bodies[b].name) +
+                        " that is fixed, moved or joined; make it again with --loads all");
+      touched[n.node] = 1;
+    }
   std::vector<int> nodes;
   for (std::size_t i = 0; i < touched.size(); ++i)
     if (touched[i]) nodes.push_back(static_cast<int>(i));
@@ -183,7 +195,10 @@ void Simulation::begin_step() {
     }
     const ElasticSystem& system = bodies_[group[0]].system();
     system.subtract_displacement_history(histories, sums);
-    std::vector<SpectralState> states = system.solve(sums);
+    std::vector<SolutionMemory*> memories;
+    for (int b : group)
+      if (system.model().is_iterative()) memories.push_back(&bodies_[b].solution_memory());
+    std::vector<SpectralState> states = system.solve(sums, memories);
     for (std::size_t i = 0; i < group.size(); ++i) begin(group[i], std::move(states[i]));
   }
 }

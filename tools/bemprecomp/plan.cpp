@@ -7,13 +7,16 @@
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
 #include "compress/dense_store.hpp"
+#include "dynamics/selection.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
 #include "scene/material_json.hpp"
+#include "scene/selection_json.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 namespace bem {
 namespace {
@@ -34,6 +37,29 @@ BodyGeometry read_body(const Options& o, double density, std::vector<std::string
   Surface surface = make_surface(std::move(mesh), o.mesh);
   warnings = surface.warnings;
   return make_geometry(surface, density);
+}
+
+/// Nodes that a file of selections chooses.
+std::vector<int> read_loaded_nodes(const std::string& path, const BodyGeometry& geometry) {
+  std::set<int> nodes;
+  for (const Selection& s : read_selections(path))
+    for (int node : select_nodes(geometry, s)) nodes.insert(node);
+  return {nodes.begin(), nodes.end()};
+}
+
+void plan_storage(const Options& o, Plan& plan) {
+  constexpr std::size_t kMostDense = 8000;  // nodes
+  PrecomputeOptions& p = plan.options;
+  p.precision = o.precision;
+  p.codec = o.codec;
+  const bool large = plan.geometry.nodes.vertices.size() > kMostDense;
+  p.inverse = o.inverse.value_or(large ? InverseKind::iterative : InverseKind::dense);
+  if (o.loads == "none") {
+    p.loads = Loads::none;
+  } else if (o.loads != "all") {
+    p.loads = Loads::some;
+    p.loaded_nodes = read_loaded_nodes(o.loads, plan.geometry);
+  }
 }
 
 int history_length(const Options& o, const Scheme& scheme, double lam) {
@@ -102,10 +128,9 @@ Plan make_plan(const Options& o) {
   d.dt = o.dt ? *o.dt : *d.material.time_step;
   d.scheme = Scheme::parse(o.scheme);
   d.quadrature_tolerance = o.quadrature_tolerance;
-  plan.options.precision = o.precision;
-  plan.options.codec = o.codec;
   plan.options.window = o.window;
   plan.geometry = read_body(o, d.material.density, plan.warnings);
+  plan_storage(o, plan);
   plan.lam = traversal_steps(plan.geometry, d.material, d.dt);
   if (!(plan.lam <= kMostTraversalSteps))
     throw Error(ErrorCode::usage,
