@@ -27,15 +27,19 @@ class Krylov {
 
   /// Takes the operator's value at next().
   void extend(Vector w) {
+    constexpr double kCancelled = 0.1;
     const std::size_t j = columns_.size();
     Vector h = Vector::Zero(static_cast<Eigen::Index>(j + 2));
-    for (int pass = 0; pass < 2; ++pass)
+    double norm = w.norm(), before = 0;
+    do {  // once more where much has cancelled
+      before = norm;
       for (std::size_t i = 0; i <= j; ++i) {
         const T c = basis_[i].dot(w);
         h[static_cast<Eigen::Index>(i)] += c;
         w -= c * basis_[i];
       }
-    const double norm = w.norm();
+      norm = w.norm();
+    } while (norm < kCancelled * before && norm > 0);
     h[static_cast<Eigen::Index>(j + 1)] = norm;
     for (std::size_t i = 0; i < j; ++i)
       h.applyOnTheLeft(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i + 1),

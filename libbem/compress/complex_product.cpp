@@ -14,21 +14,6 @@ void for_each_part(const MatrixFamily& family, const F& term) {
   term(1, 0, 1, 1.0);
 }
 
-/// Real and imaginary parts of vectors, side by side.
-Eigen::MatrixXd parts_of(const Eigen::MatrixXcd& v) {
-  Eigen::MatrixXd parts(v.rows(), 2 * v.cols());
-  parts << v.real(), v.imag();
-  return parts;
-}
-
-Eigen::MatrixXcd from_parts(const Eigen::MatrixXd& parts) {
-  const Eigen::Index count = parts.cols() / 2;
-  Eigen::MatrixXcd v(parts.rows(), count);
-  v.real() = parts.leftCols(count);
-  v.imag() = parts.rightCols(count);
-  return v;
-}
-
 /// `analysed`: coefficients of each input; may be empty.
 std::vector<FamilyTerm> terms_of(const MatrixFamily& family, const Eigen::MatrixXd& inputs,
                                  const Eigen::MatrixXf& analysed) {
@@ -51,15 +36,59 @@ std::vector<double*> columns_of(Eigen::MatrixXd& m) {
   return columns;
 }
 
+/// Coefficients of the columns that are not zero.
+Eigen::MatrixXf analyse_columns(const MatrixFamily& family, const Eigen::MatrixXd& v) {
+  Eigen::MatrixXf analysed(static_cast<Eigen::Index>(family.coefficients()), v.cols());
+  for (Eigen::Index c = 0; c < v.cols() && analysed.size() > 0; ++c)
+    if (!v.col(c).isZero(0)) family.analyse(v.col(c).data(), analysed.col(c).data());
+  return analysed;
+}
+
+/// Products of the first matrix with the columns that are not zero.
+std::vector<FamilyTerm> real_terms(const Eigen::MatrixXd& v, const Eigen::MatrixXf& analysed) {
+  std::vector<FamilyTerm> terms;
+  for (Eigen::Index c = 0; c < v.cols(); ++c)
+    if (!v.col(c).isZero(0))
+      terms.push_back({0, v.col(c).data(), analysed.size() > 0 ? analysed.col(c).data() : nullptr,
+                       static_cast<int>(c)});
+  return terms;
+}
+
 }  // namespace
+
+Eigen::MatrixXd parts_of(const Eigen::MatrixXcd& v) {
+  Eigen::MatrixXd parts(v.rows(), 2 * v.cols());
+  parts << v.real(), v.imag();
+  return parts;
+}
+
+Eigen::MatrixXcd from_parts(const Eigen::MatrixXd& parts) {
+  const Eigen::Index count = parts.cols() / 2;
+  Eigen::MatrixXcd v(parts.rows(), count);
+  v.real() = parts.leftCols(count);
+  v.imag() = parts.rightCols(count);
+  return v;
+}
+
+Eigen::MatrixXd multiply_real(const MatrixFamily& family, const Eigen::MatrixXd& v) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(family.rows()), v.cols());
+  const Eigen::MatrixXf analysed = analyse_columns(family, v);
+  family.multiply_add(real_terms(v, analysed), columns_of(out));
+  return out;
+}
+
+Eigen::MatrixXd multiply_real_transposed(const MatrixFamily& family, const Eigen::MatrixXd& v) {
+  Eigen::MatrixXd out =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(family.columns()), v.cols());
+  family.multiply_transposed_add(real_terms(v, {}), columns_of(out));
+  return out;
+}
 
 Eigen::MatrixXcd multiply_complex(const MatrixFamily& family, const Eigen::MatrixXcd& v) {
   const Eigen::MatrixXd inputs = parts_of(v);
   Eigen::MatrixXd outputs =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(family.rows()), inputs.cols());
-  Eigen::MatrixXf analysed(static_cast<Eigen::Index>(family.coefficients()), inputs.cols());
-  for (Eigen::Index c = 0; c < inputs.cols() && analysed.size() > 0; ++c)
-    if (!inputs.col(c).isZero(0)) family.analyse(inputs.col(c).data(), analysed.col(c).data());
+  const Eigen::MatrixXf analysed = analyse_columns(family, inputs);
   family.multiply_add(terms_of(family, inputs, analysed), columns_of(outputs));
   return from_parts(outputs);
 }

@@ -79,20 +79,28 @@ void ElasticSystem::add_input_history(const InputColumns& columns, const LagHist
   }
 }
 
-Eigen::MatrixXcd SolutionMemory::extrapolated(int component) const {
-  if (component >= static_cast<int>(last_.size()) || last_[component].empty()) return {};
-  const std::vector<Eigen::VectorXcd>& u = last_[component];
-  if (u.size() == 1) return u[0];
-  if (u.size() == 2) return 2 * u[0] - u[1];
-  return 3 * (u[0] - u[1]) + u[2];
+Eigen::VectorXcd SolutionMemory::guess(int component, const Eigen::VectorXcd& b) const {
+  Eigen::VectorXcd u = Eigen::VectorXcd::Zero(b.size());
+  if (component < static_cast<int>(pairs_.size()))
+    for (const Pair& p : pairs_[component]) u += p.b.dot(b) * p.u;
+  return u;
 }
 
-void SolutionMemory::add(int component, Eigen::VectorXcd solution) {
-  constexpr std::size_t kKept = 3;
-  if (component >= static_cast<int>(last_.size())) last_.resize(component + 1);
-  std::vector<Eigen::VectorXcd>& u = last_[component];
-  if (u.size() == kKept) u.pop_back();
-  u.insert(u.begin(), std::move(solution));
+void SolutionMemory::add(int component, Eigen::VectorXcd u, Eigen::VectorXcd b) {
+  constexpr std::size_t kMost = 40;
+  constexpr double kNew = 1e-4;  // of b: less is known already
+  if (component >= static_cast<int>(pairs_.size())) pairs_.resize(component + 1);
+  std::deque<Pair>& pairs = pairs_[component];
+  const double size = b.norm();
+  for (const Pair& p : pairs) {
+    const Complex part = p.b.dot(b);
+    b -= part * p.b;
+    u -= part * p.u;
+  }
+  const double rest = b.norm();
+  if (!(rest > kNew * size)) return;
+  if (pairs.size() == kMost) pairs.pop_front();
+  pairs.push_back({u / rest, b / rest});
 }
 
 std::vector<SpectralState> ElasticSystem::solve(
@@ -112,13 +120,12 @@ std::vector<SpectralState> ElasticSystem::solve(
     for (Eigen::Index b = 0; b < bodies; ++b)
       loads.col(b) = stage_sums[b].cast<Complex>() * c.right;
     const int component = static_cast<int>(i);
-    Eigen::MatrixXcd guess = Eigen::MatrixXcd::Zero(loads.rows(), memories.empty() ? 0 : bodies);
-    for (std::size_t b = 0; b < memories.size(); ++b)
-      if (Eigen::MatrixXcd last = memories[b]->extrapolated(component); last.size() > 0)
-        guess.col(static_cast<Eigen::Index>(b)) = last;
+    Eigen::MatrixXcd guess(loads.rows(), static_cast<Eigen::Index>(memories.size()));
+    for (Eigen::Index b = 0; b < guess.cols(); ++b)
+      guess.col(b) = memories[b]->guess(component, loads.col(b));
     Eigen::MatrixXcd u = solvers_[i]->solve(loads, guess);
-    for (std::size_t b = 0; b < memories.size(); ++b)
-      memories[b]->add(component, u.col(static_cast<Eigen::Index>(b)));
+    for (Eigen::Index b = 0; b < guess.cols(); ++b)
+      memories[b]->add(component, u.col(b), loads.col(b));
     const Eigen::MatrixXcd z = projection_.project(component, u);
     for (Eigen::Index b = 0; b < bodies; ++b) {
       states[b].displacement.push_back(u.col(b));

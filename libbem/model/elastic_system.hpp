@@ -4,6 +4,7 @@
 #include "model/rigid_projection.hpp"
 
 #include <cmath>
+#include <deque>
 
 namespace bem {
 
@@ -61,15 +62,19 @@ struct SpectralState {
   std::vector<Eigen::VectorXcd> acceleration;  ///< z, 6
 };
 
-/// Solutions of the last steps of a body, from which an iterative one starts.
+/// Solutions H_0 u = b of the last steps of a body, by initial component: an iterative solution
+/// starts from what they make of its right-hand side.
 class SolutionMemory {
  public:
-  /// Of a component; empty at first.
-  Eigen::MatrixXcd extrapolated(int component) const;
-  void add(int component, Eigen::VectorXcd solution);
+  /// The combination of known solutions whose right-hand side is nearest to b.
+  Eigen::VectorXcd guess(int component, const Eigen::VectorXcd& b) const;
+  void add(int component, Eigen::VectorXcd u, Eigen::VectorXcd b);
 
  private:
-  std::vector<std::vector<Eigen::VectorXcd>> last_;  ///< [component], newest first
+  struct Pair {
+    Eigen::VectorXcd u, b;  ///< the b of a component are orthonormal
+  };
+  std::vector<std::deque<Pair>> pairs_;  ///< [component], oldest first
 };
 
 /// The linear part of a time step: products with the history, solution at lag 0, removal of rigid
