@@ -5,6 +5,7 @@
 #include "archive/user_block.hpp"
 #include "base/hdf5.hpp"
 #include "base/pending_file.hpp"
+#include "compress/block_partition.hpp"
 #include "compress/dense_family.hpp"
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 namespace bem {
 namespace {
 
+constexpr double kBlockBytes = 68, kCouplingBytes = 24;  // of tables of compressed matrices
 constexpr std::size_t kTileBytes = std::size_t(32) << 20;
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -42,8 +44,8 @@ double table_bytes(const BodyModel& model) {
   for (const MatrixFamily* family : large_families(model))
     if (const auto* compressed = dynamic_cast<const LowRankFamily*>(family))
       for (const LowRankSlab& slab : compressed->slabs())
-        bytes += 12 + 68.0 * static_cast<double>(slab.blocks.size()) +
-                 24.0 * static_cast<double>(slab.couplings.size());
+        bytes += 12 + kBlockBytes * static_cast<double>(slab.blocks.size()) +
+                 kCouplingBytes * static_cast<double>(slab.couplings.size());
   return bytes;
 }
 
@@ -286,12 +288,22 @@ void check_archive_target(const std::string& path, bool force, double bytes) {
   check_free_space(path, bytes);
 }
 
-double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& options) {
+double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& options,
+                     double stored) {
   const Discretisation& d = options.discretisation;
   if (options.kind == ModelKind::rigid) return overhead_bytes(geometry, 0);
   const double lags = d.history_length * static_cast<double>(d.scheme.lag_components().size());
-  return precompute_memory(geometry.nodes.vertices.size(), options).stored +
-         overhead_bytes(geometry, 2 * lags);
+  const double kinds = options.loads == Loads::none ? 1 : 2;
+  if (options.codec.codec == Codec::none) return stored + overhead_bytes(geometry, kinds * lags);
+  const double blocks = [&] {
+    double count = 0;
+    for (const Slab& s : make_partition(geometry.nodes.vertices, {}))
+      count += static_cast<double>(s.blocks.size());
+    return count;
+  }();
+  const double matrices = kinds * (lags + d.scheme.initial_components().size() * 2.0);
+  return stored + blocks * (kBlockBytes * 2 * kinds + kCouplingBytes * matrices) +
+         overhead_bytes(geometry, 10 * kinds);
 }
 
 void write_archive(const std::string& path, const BodyModel& model, const Provenance& provenance,

@@ -5,6 +5,7 @@
 #include "model/initial_inverse.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 namespace bem {
 namespace {
@@ -61,9 +62,9 @@ void for_each_initial(const Scheme& scheme, const F& f) {
 /// What the slabs of the matrices become; what is not wanted is empty.
 template <class T>
 struct Targets {
-  std::unique_ptr<FamilyBuilder<T>> h, g;                             ///< lags
+  std::unique_ptr<FamilyBuilder<T>> h, g;                               ///< lags
   std::vector<std::unique_ptr<FamilyBuilder<T>>> initial_h, initial_g;  ///< by initial component
-  std::vector<InitialMatrix> dense_h, dense_g;                        ///< the same, to be inverted
+  std::vector<InitialMatrix> dense_h, dense_g;  ///< the same, to be inverted
 };
 
 /// Assembles all slabs and gives them to their targets.
@@ -227,8 +228,7 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
   for_each_initial(model.discretisation.scheme, [&](std::size_t, int part, int parts) {
     if (iterative) targets.initial_h.push_back(builders.initial_h(part, parts));
     if (tractions)
-      targets.initial_g.push_back(
-          builders.initial_g(part, parts, iterative ? 1.0 : kOfIngredient));
+      targets.initial_g.push_back(builders.initial_g(part, parts, iterative ? 1.0 : kOfIngredient));
   });
   return targets;
 }
@@ -260,6 +260,41 @@ void assemble_model(BodyModel& model, const PrecomputeOptions& options, const Pr
     assemble_uncompressed<float>(model, options, progress);
   else
     assemble_uncompressed<double>(model, options, progress);
+}
+
+StoredEstimate sample_compression(const BodyGeometry& geometry, const PrecomputeOptions& options) {
+  constexpr std::size_t kSamples = 3;
+  constexpr double kOfInverse = 0.7;  // of the bytes of H_0 and G_0
+  BodyModel model;
+  model.geometry = geometry;
+  model.discretisation = options.discretisation;
+  model.loads = options.loads;
+  model.loaded_nodes = options.loaded_nodes;
+  PrecomputeOptions iterative = options;  // H_0 and G_0 are compressed
+  iterative.inverse = InverseKind::iterative;
+  const std::vector<Slab> all = make_partition(geometry.nodes.vertices, {});
+  const std::size_t samples = std::min(kSamples, all.size());
+  std::vector<Slab> slabs;
+  double rows = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    slabs.push_back(all[(2 * i + 1) * all.size() / (2 * samples)]);
+    rows += slabs.back().row_end - slabs.back().row_begin;
+  }
+  SlabAssembler<float> assembler(model, assembly_precision(options));
+  Targets<float> targets = compressed_targets(assembler, slabs, model, iterative);
+  const auto start = std::chrono::steady_clock::now();
+  assemble_all(assembler, model, slabs, targets, nullptr);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  take_families(targets, model);
+  double lags = 0, initial = 0;
+  for (const auto* family : {model.h.get(), model.g.get()})
+    if (family) lags += static_cast<double>(family->bytes());
+  for (const auto* families : {&model.initial_h, &model.initial_g})
+    for (const auto& family : *families) initial += static_cast<double>(family->bytes());
+  if (options.inverse == InverseKind::dense) initial *= kOfInverse;
+  const double all_rows = static_cast<double>(model.nodes()) / rows;
+  return {(lags + initial) * all_rows, seconds * all_rows};
 }
 
 }  // namespace bem

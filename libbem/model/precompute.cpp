@@ -62,21 +62,4 @@ BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
   return model;
 }
 
-MemoryEstimate precompute_memory(std::size_t nodes, const PrecomputeOptions& options) {
-  if (options.kind == ModelKind::rigid) return {};
-  const Scheme& scheme = options.discretisation.scheme;
-  const LaneLayout layout(scheme, options.discretisation.history_length);
-  const double square = 9.0 * static_cast<double>(nodes) * static_cast<double>(nodes);
-  const double entry = static_cast<double>(bytes_per_entry(options.precision));
-  MemoryEstimate e;
-  e.stored = square * entry * 2 * layout.count() +
-             3.0 * static_cast<double>(nodes) * 6 * 8 * layout.count();
-  // lag 0 is complex double while it is factorised; the stored copies replace it one by one
-  const double lags = square * entry * 2 * (layout.count() - layout.initial);
-  const double initial = square * 16 * 2 * static_cast<double>(scheme.initial_components().size());
-  const double at_rest = square * 8 * 2;
-  e.peak = std::max(lags + initial + at_rest, e.stored + square * 16);
-  return e;
-}
-
 }  // namespace bem

@@ -164,8 +164,7 @@ void print_matrices(Table& table, const Archive& archive) {
   print_storage(table, archive);
   table.line("quadrature", "tolerance ", d.quadrature_tolerance, ", row sums repaired by ",
              r.row_sum_residual, ", rotation residual ", r.rotation_residual);
-  if (archive.codec() != Codec::none)
-    print_codec_errors(table, archive);
+  if (archive.codec() != Codec::none) print_codec_errors(table, archive);
   table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
              " without window)");
   if (!archive.is_iterative()) table.line("condition", r.condition, " (lag 0)");
@@ -197,9 +196,8 @@ void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
   print_scheme(table, d, plan.lam);
   table.line("lam", plan.lam);
   table.line("n_max", d.history_length);
-  table.line("memory", bytes_text(plan.memory.stored), " of matrices, ",
-             bytes_text(plan.memory.peak), " at most (the machine has ",
-             bytes_text(static_cast<double>(physical_memory())), ")");
+  table.line("memory", bytes_text(plan.stored), " of matrices, ", bytes_text(plan.peak),
+             " at most (the machine has ", bytes_text(static_cast<double>(physical_memory())), ")");
   table.line("time", "about ", seconds_text(time.total()), " on ", thread_count(),
              " threads (assembly ", seconds_text(time.assembly), ", inversion ",
              seconds_text(time.inversion), ", growth factor ", seconds_text(time.growth),
