@@ -1,5 +1,6 @@
 #include "archive/archive_layout.hpp"
 #include "archive/archive_reader.hpp"
+#include "archive/haar_storage.hpp"
 #include "archive/low_rank_storage.hpp"
 #include "base/parallel.hpp"
 #include "compress/dense_family.hpp"
@@ -35,19 +36,19 @@ class Archive::Loading {
   double bytes() const { return total_; }
 
   std::unique_ptr<MatrixFamily> load(const FamilyPlace& place) {
-    if (archive_.codec() == Codec::lowrank) return load_compressed(place, nullptr);
+    if (archive_.codec() != Codec::none) return load_compressed(place, nullptr);
     return precision_ == Precision::float32 ? load_dense<float>(place) : load_dense<double>(place);
   }
 
   std::unique_ptr<MatrixFamily> load_columns(const FamilyPlace& place,
                                              const std::vector<int>& columns) {
-    if (archive_.codec() == Codec::lowrank) return load_compressed(place, &columns);
+    if (archive_.codec() != Codec::none) return load_compressed(place, &columns);
     return precision_ == Precision::float32 ? pick_columns<float>(place, columns)
                                             : pick_columns<double>(place, columns);
   }
 
   void check_numbers(const FamilyPlace& place) {
-    if (archive_.codec() == Codec::lowrank) {
+    if (archive_.codec() != Codec::none) {
       load_compressed(place, nullptr);
       return;
     }
@@ -69,8 +70,9 @@ class Archive::Loading {
     if (archive_.codec() == Codec::none)
       return static_cast<double>(place.paths.size()) * static_cast<double>(n_ * n_) *
              static_cast<double>(bytes_per_entry(precision_));
+    const bool haar = archive_.codec() == Codec::haar;
     double bytes = 0;
-    for (const char* name : {"/analysis", "/synthesis"})
+    for (const char* name : {haar ? "/gaps" : "/analysis", haar ? "/values" : "/synthesis"})
       for (std::size_t extent : file_.dims(place.group + name))
         bytes += static_cast<double>(extent);
     return bytes;
@@ -78,8 +80,11 @@ class Archive::Loading {
 
   std::unique_ptr<MatrixFamily> load_compressed(const FamilyPlace& place,
                                                 const std::vector<int>* columns) {
-    return read_low_rank(file_, place.group, n_, static_cast<int>(place.paths.size()), columns,
-                         [this](std::size_t bytes) { report(static_cast<double>(bytes)); });
+    const int count = static_cast<int>(place.paths.size());
+    const auto done = [this](std::size_t bytes) { report(static_cast<double>(bytes)); };
+    if (archive_.codec() == Codec::haar)
+      return read_haar(file_, place.group, n_, count, columns, done);
+    return read_low_rank(file_, place.group, n_, count, columns, done);
   }
 
   template <class T>
@@ -191,6 +196,7 @@ double Archive::matrix_bytes(bool tractions) const {
 
 std::size_t Archive::history_coefficients() const {
   if (codec_ == Codec::none) return 0;
+  if (codec_ == Codec::haar) return unknowns();
   const Hdf5Dims dims = file_.dims(lags_path("h") + "/input_scales");
   return dims.empty() ? 0 : dims[0];
 }

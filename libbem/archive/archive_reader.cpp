@@ -56,10 +56,11 @@ void Archive::read_storage() {
     if (loads != loads_name(loads_)) refuse("has the unknown loads \"" + loads + "\"");
   }
   const std::string codec = file_.string_attribute("/", "codec");
-  if (codec == codec_name(Codec::lowrank)) {
-    codec_ = Codec::lowrank;
-    return;
-  }
+  for (Codec compressed : {Codec::haar, Codec::lowrank})
+    if (codec == codec_name(compressed)) {
+      codec_ = compressed;
+      return;
+    }
   require_text("codec", codec_name(Codec::none));
   const std::string precision = file_.string_attribute("/", "precision");
   if (precision != "float32" && precision != "float64")

@@ -1,6 +1,7 @@
 #include "archive/archive_writer.hpp"
 
 #include "archive/archive_layout.hpp"
+#include "archive/haar_storage.hpp"
 #include "archive/low_rank_storage.hpp"
 #include "archive/user_block.hpp"
 #include "base/hdf5.hpp"
@@ -187,6 +188,8 @@ class MatrixWriter {
       write_dense(paths, *full);
     else if (const auto* compressed = dynamic_cast<const LowRankFamily*>(&family))
       write_low_rank(file_, group, *compressed, [this](std::size_t bytes) { report(bytes); });
+    else if (const auto* haar = dynamic_cast<const HaarFamily*>(&family))
+      write_haar(file_, group, *haar, [this](std::size_t bytes) { report(bytes); });
     else
       throw Error(ErrorCode::internal, "an archive cannot hold matrices of this codec");
   }
@@ -294,7 +297,7 @@ double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& opti
   if (options.kind == ModelKind::rigid) return overhead_bytes(geometry, 0);
   const double lags = d.history_length * static_cast<double>(d.scheme.lag_components().size());
   const double kinds = options.loads == Loads::none ? 1 : 2;
-  if (options.codec.codec == Codec::none) return stored + overhead_bytes(geometry, kinds * lags);
+  if (options.codec.codec != Codec::lowrank) return stored + overhead_bytes(geometry, kinds * lags);
   const double blocks = [&] {
     double count = 0;
     for (const Slab& s : make_partition(geometry.nodes.vertices, {}))

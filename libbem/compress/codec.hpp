@@ -15,6 +15,8 @@ struct CodecOptions {
   Codec codec = Codec::none;
   /// Error of the matrices aimed at, relative to their Frobenius norm (of all lags together).
   double tolerance = 1e-4;
+  /// Codec haar: entries before / coefficients kept; 0: as many as the tolerance asks for.
+  double ratio = 0;
 };
 
 /// "none", "haar", "lowrank".

@@ -1,7 +1,7 @@
 #include "model/initial_inverse.hpp"
 
 #include "base/parallel.hpp"
-#include "compress/dense_family.hpp"
+#include "compress/direct_builder.hpp"
 #include "compress/low_rank_builder.hpp"
 
 #include <algorithm>
@@ -16,28 +16,33 @@ MatrixView<Stored> view(const Eigen::Matrix<Stored, Eigen::Dynamic, Eigen::Dynam
 }
 
 template <class Stored, class T>
-std::unique_ptr<MatrixFamily> store_dense(const DenseMatrix<T>& m) {
+std::unique_ptr<MatrixFamily> store_rows(const DenseMatrix<T>& m, const CodecOptions& codec,
+                                         double& error) {
   using Part = Eigen::Matrix<Stored, Eigen::Dynamic, Eigen::Dynamic>;
-  constexpr Eigen::Index kSlab = 256;
   constexpr bool paired = std::is_same_v<T, Complex>;
-  DenseBuilder<Stored> builder(static_cast<std::size_t>(m.rows()), paired ? 2 : 1);
-  for (Eigen::Index first = 0; first < m.rows(); first += kSlab) {
-    const auto rows = m.middleRows(first, std::min(kSlab, m.rows() - first));
+  const int nodes = static_cast<int>(m.rows() / 3);
+  const auto builder = make_direct_builder<Stored>(codec, nodes, paired ? 2 : 1);
+  for (const Slab& slab : direct_slabs(codec, nodes)) {
+    const auto rows = m.middleRows(3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin));
     if constexpr (paired) {
       const Part real = rows.real().template cast<Stored>();
       const Part imaginary = rows.imag().template cast<Stored>();
-      builder.add_rows({view(real), view(imaginary)});
+      builder->add_rows({view(real), view(imaginary)});
     } else {
       const Part real = rows.template cast<Stored>();
-      builder.add_rows({view(real)});
+      builder->add_rows({view(real)});
     }
   }
-  return builder.finish();
+  auto family = builder->finish();
+  error = std::max(error, builder->error());
+  return family;
 }
 
 template <class T>
-std::unique_ptr<MatrixFamily> store(const BodyModel& model, const DenseMatrix<T>& m) {
-  return model.precision == Precision::float32 ? store_dense<float>(m) : store_dense<double>(m);
+std::unique_ptr<MatrixFamily> store(const BodyModel& model, const DenseMatrix<T>& m,
+                                    const CodecOptions& codec, double& error) {
+  return model.precision == Precision::float32 ? store_rows<float>(m, codec, error)
+                                               : store_rows<double>(m, codec, error);
 }
 
 template <class T>
@@ -57,15 +62,17 @@ Lu<T> factorise(DenseMatrix<T>&& h, const Progress& progress) {
 
 template <class T>
 void invert_dense(BodyModel& model, DenseMatrix<T>&& h, DenseMatrix<T>* g,
-                  const Progress& progress) {
+                  const CodecOptions& codec, const Progress& progress) {
+  ModelReport::CodecErrors& errors = model.report.codec_errors;
   Lu<T> lu = factorise(std::move(h), progress);
   if (g) {
     if (progress) progress("traction response", 0);
     lu.solve(*g);
-    model.traction_response.push_back(store(model, *g));
+    model.traction_response.push_back(store(model, *g, codec, errors.traction_response));
     g->resize(0, 0);
   }
-  model.inverse.push_back(store(model, invert(model, std::move(lu), progress)));
+  model.inverse.push_back(
+      store(model, invert(model, std::move(lu), progress), codec, errors.inverse));
 }
 
 /// Rows of a matrix as single precision parts: real, and imaginary of a complex one.
@@ -167,11 +174,12 @@ void InitialMatrix::set_rows(Eigen::Index first, const Eigen::MatrixXd& real_par
   });
 }
 
-void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const Progress& progress) {
+void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const CodecOptions& codec,
+                  const Progress& progress) {
   if (h.paired)
-    invert_dense(model, std::move(h.complex), g ? &g->complex : nullptr, progress);
+    invert_dense(model, std::move(h.complex), g ? &g->complex : nullptr, codec, progress);
   else
-    invert_dense(model, std::move(h.real), g ? &g->real : nullptr, progress);
+    invert_dense(model, std::move(h.real), g ? &g->real : nullptr, codec, progress);
 }
 
 void invert_compressed(BodyModel& model, InitialMatrix&& h, const LowRankFamily* g,

@@ -27,10 +27,13 @@ struct InitialMatrix {
 };
 
 /// Adds H_0^{-1} and, from the uncompressed G_0, H_0^{-1} G_0 of a component to the model, in the
-/// precision of the model; `g` may be null. Notes the condition number.
-void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const Progress& progress);
+/// precision of the model or by a codec that make_direct_builder() knows; `g` may be null. Notes
+/// the condition number and the codec's errors.
+void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const CodecOptions& codec,
+                  const Progress& progress);
 
-/// The same compressed, with `g` compressed, too: H_0^{-1} is multiplied by it slab by slab.
+/// The same with codec lowrank, and with `g` compressed, too: H_0^{-1} is multiplied by it slab by
+/// slab.
 void invert_compressed(BodyModel& model, InitialMatrix&& h, const LowRankFamily* g,
                        double tolerance, const Progress& progress);
 

@@ -62,12 +62,14 @@ double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o, double
 StoredEstimate estimate_stored(const BodyGeometry& g, const PrecomputeOptions& o) {
   if (o.kind == ModelKind::rigid) return {};
   StoredEstimate out;
-  if (o.codec.codec == Codec::none) {
+  if (o.codec.codec == Codec::lowrank) {
+    out = sample_compression(g, o);
+  } else {
+    constexpr double kWithIndices = 1.5;  // a number of codec haar and its place
     const Counts c = counts_of(o);
     out.bytes = square(g) * static_cast<double>(bytes_per_entry(o.precision)) * c.kinds *
                 (c.lags + c.parts);
-  } else {
-    out = sample_compression(g, o);
+    if (o.codec.ratio > 0) out.bytes *= std::min(1.0, kWithIndices / o.codec.ratio);
   }
   out.bytes += small_bytes(g, o);
   return out;
@@ -75,7 +77,7 @@ StoredEstimate estimate_stored(const BodyGeometry& g, const PrecomputeOptions& o
 
 double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, double stored) {
   if (o.kind == ModelKind::rigid) return 0;
-  if (o.codec.codec != Codec::none) return compressed_peak(g, o, stored);
+  if (o.codec.codec == Codec::lowrank) return compressed_peak(g, o, stored);
   const Counts c = counts_of(o);
   const double entry = static_cast<double>(bytes_per_entry(o.precision));
   // lag 0 is double while it is factorised; the stored copies replace it one by one

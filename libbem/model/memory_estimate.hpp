@@ -9,8 +9,8 @@ struct StoredEstimate {
   double bytes = 0;
   double assembly_seconds = 0;  ///< of compressed ones: of all of them on this machine
 };
-/// Exact for codec "none"; for compressed matrices from a few slabs, which are assembled and
-/// compressed for it.
+/// Exact for codec "none"; for "lowrank" from a few slabs, which are assembled and compressed for
+/// it; for "haar" from its ratio, and with a tolerance what they take uncompressed.
 StoredEstimate estimate_stored(const BodyGeometry& geometry, const PrecomputeOptions& options);
 
 /// Bytes of the largest working set of precompute(), when the stored matrices take `stored`.

@@ -1,6 +1,6 @@
 #include "model/model_assembly.hpp"
 
-#include "compress/dense_family.hpp"
+#include "compress/direct_builder.hpp"
 #include "compress/low_rank_builder.hpp"
 #include "model/initial_inverse.hpp"
 
@@ -142,35 +142,29 @@ void take_families(Targets<T>& targets, BodyModel& model) {
 }
 
 template <class T>
-void assemble_uncompressed(BodyModel& model, const PrecomputeOptions& options,
-                           const Progress& progress) {
-  constexpr int kSlabNodes = 32;
+void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
+                       const Progress& progress) {
   const int n = static_cast<int>(model.nodes());
   const bool tractions = options.loads != Loads::none;
   SlabAssembler<T> assembler(model, assembly_precision(options));
   Targets<T> targets;
-  const auto dense = [&](int count) {
-    return std::make_unique<DenseBuilder<T>>(3 * model.nodes(), count);
-  };
-  targets.h = dense(assembler.lag_count());
-  if (tractions) targets.g = dense(assembler.lag_count());
+  const auto builder = [&](int count) { return make_direct_builder<T>(options.codec, n, count); };
+  targets.h = builder(assembler.lag_count());
+  if (tractions) targets.g = builder(assembler.lag_count());
   if (options.inverse == InverseKind::dense) {
     targets.dense_h = dense_matrices(model);
     if (tractions) targets.dense_g = dense_matrices(model);
   } else {
     for_each_initial(model.discretisation.scheme, [&](std::size_t, int, int parts) {
-      targets.initial_h.push_back(dense(parts));
-      if (tractions) targets.initial_g.push_back(dense(parts));
+      targets.initial_h.push_back(builder(parts));
+      if (tractions) targets.initial_g.push_back(builder(parts));
     });
   }
-  std::vector<Slab> slabs;
-  for (int first = 0; first < n; first += kSlabNodes)
-    slabs.push_back({first, std::min(n, first + kSlabNodes), {}});
-  assemble_all(assembler, model, slabs, targets, progress);
+  assemble_all(assembler, model, direct_slabs(options.codec, n), targets, progress);
   take_families(targets, model);
   for (std::size_t i = 0; i < targets.dense_h.size(); ++i)
     invert_dense(model, std::move(targets.dense_h[i]), tractions ? &targets.dense_g[i] : nullptr,
-                 progress);
+                 options.codec, progress);
 }
 
 /// What the builders of a compressed model need to know before they see all rows, from a sample.
@@ -257,9 +251,9 @@ void assemble_model(BodyModel& model, const PrecomputeOptions& options, const Pr
   if (options.codec.codec == Codec::lowrank)
     assemble_compressed(model, options, progress);
   else if (options.precision == Precision::float32)
-    assemble_uncompressed<float>(model, options, progress);
+    assemble_directly<float>(model, options, progress);
   else
-    assemble_uncompressed<double>(model, options, progress);
+    assemble_directly<double>(model, options, progress);
 }
 
 StoredEstimate sample_compression(const BodyGeometry& geometry, const PrecomputeOptions& options) {

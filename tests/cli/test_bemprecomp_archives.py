@@ -19,11 +19,36 @@ class Archives(CliCase):
 
     def test_same_bytes_for_any_thread_count(self):
         self.sphere(2)
-        for threads in [1, 2]:
-            self.run_tool("sphere.obj", "rubber.json", "--dt", "0.004", "-o", f"{threads}.bem",
-                          "--threads", threads, "-q")
-        self.assertGreater(len(self.bytes_of("1.bem")), 200000)
-        self.assertTrue(self.bytes_of("1.bem") == self.bytes_of("2.bem"))
+        for codec in ["lowrank", "haar"]:
+            for threads in [1, 2]:
+                self.run_tool("sphere.obj", "rubber.json", "--dt", "0.004", "-o", f"{threads}.bem",
+                              "--threads", threads, "--codec", codec, "-q", "--force")
+            self.assertGreater(len(self.bytes_of("1.bem")), 200000)
+            self.assertTrue(self.bytes_of("1.bem") == self.bytes_of("2.bem"), codec)
+
+    def test_compression_ratio(self):
+        """Of each family of matrices so many coefficients are kept; more of them are better."""
+        self.sphere(2)
+        self.precompute("--codec", "none", output="dense.bem")
+        errors = []
+        for ratio in [16, 4]:
+            self.precompute("--codec", "haar", "--compression-ratio", ratio, "--force")
+            info = json.loads(self.run_tool("--info", "a.bem", "--json").stdout)
+            self.assertEqual(info["codec"], "haar")
+            self.assertIn(f"--codec haar --compression-ratio {ratio}", info["provenance"]["options"])
+            self.assertEqual(self.run_tool("--verify", "a.bem").stdout, "a.bem: intact\n")
+            with h5py.File(self.folder / "a.bem") as archive:
+                for name in ["h", "g", "inverse/component_0", "traction_response/component_0"]:
+                    family = archive["matrices"][name]
+                    entries = int(family.attrs["matrices"]) * (3 * 162) ** 2
+                    kept = len(family["values"]) // int(family.attrs["value_bytes"])
+                    self.assertEqual(kept, entries // ratio)
+            lines = self.run_tool("--diff", "dense.bem", "a.bem", code=1).stdout.splitlines()
+            error = [float(line.split("relative error ")[1]) for line in lines
+                     if line.startswith("matrices/inverse/component_0")][0]
+            self.assertAlmostEqual(error, info["report"]["codec_errors"]["inverse"], delta=1e-5)
+            errors.append(error)
+        self.assertLess(errors[1], 0.5 * errors[0])
 
     def test_info(self):
         self.precompute()
@@ -57,10 +82,10 @@ class Archives(CliCase):
             self.assertGreater(error, 1e-9)
             self.assertLess(error, 1e-5)
 
-        for tolerance in ("1e-2", "1e-4"):
-            self.precompute("--codec-tol", tolerance, "--force", output="compressed.bem")
+        for codec, tolerance in [("lowrank", "1e-2"), ("lowrank", "1e-4"), ("haar", "1e-3")]:
+            self.precompute("--codec", codec, "--codec-tol", tolerance, "--force", output="compressed.bem")
             lines = self.run_tool("--diff", "a.bem", "compressed.bem", code=1).stdout.splitlines()
-            self.assertIn('codec: "none" and "lowrank"', lines)
+            self.assertIn(f'codec: "none" and "{codec}"', lines)
             for matrix in ["h/lag_001", "g/lag_001", "inverse", "traction_response"]:
                 found = [line for line in lines if line.startswith(f"matrices/{matrix}/component_0")]
                 error = float(found[0].split("relative error ")[1])
@@ -100,13 +125,16 @@ class Archives(CliCase):
     def test_examples_of_the_documentation_run(self):
         self.run_tool("sphere.obj", "rubber.json", "-o", "sphere.bem", "--dt", "0.01")
         self.run_tool("sphere.obj", "rubber.json", "-o", "dense.bem", "--dt", "0.01", "--codec", "none")
+        self.run_tool("sphere.obj", "rubber.json", "-o", "haar.bem", "--dt", "0.01", "--codec", "haar",
+                      "--codec-tol", "1e-3")
         text = (pathlib.Path(os.environ["BEM_DOCS"]) / "archive-format.md").read_text()
         examples = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
-        self.assertEqual(len(examples), 3)
+        self.assertEqual(len(examples), 4)
         outputs = [subprocess.run([sys.executable, "-c", example], cwd=self.folder, text=True,
                                   check=True, capture_output=True).stdout for example in examples]
         self.assertRegex(outputs[0], r"^radau2 0\.01 \(42, 3\)\n\(2, 2, 126, 126\) -?\d")
         self.assertLess(float(outputs[1]), 3e-4)
+        self.assertLess(float(outputs[2]), 3e-3)
 
 
 if __name__ == "__main__":

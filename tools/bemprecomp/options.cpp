@@ -57,11 +57,13 @@ void add_matrix_options(CLI::App& app, Typed& t) {
                  "relative error aimed at by the spatial quadrature (1e-6)")
       ->type_name("X");
   app.add_option("--codec", t.codec,
-                 "lowrank, or none: every entry; haar is not supported yet (lowrank)")
+                 "lowrank; none: every entry; or haar: the largest Haar coefficients, to compare "
+                 "with (lowrank)")
       ->type_name("NAME");
   app.add_option("--codec-tol", t.codec_tolerance, "relative error aimed at by the codec (1e-4)")
       ->type_name("X");
-  app.add_option("--compression-ratio", t.compression_ratio, "entries before / entries kept (haar)")
+  app.add_option("--compression-ratio", t.compression_ratio,
+                 "with --codec haar, in place of --codec-tol: entries before / coefficients kept")
       ->type_name("R");
   app.add_option("--precision", t.precision, "with --codec none: float32 or float64 (float32)")
       ->type_name("NAME");
@@ -142,16 +144,21 @@ void check_supported(const Typed& t) {
     refuse(option + " does not know \"" + value + "\"; use " + now);
   };
   if (t.model != "rigid") one_of("--model", t.model, {"static"}, "dynamic");
-  if (t.codec != "none") one_of("--codec", t.codec, {"haar"}, "lowrank");
-  if (t.codec_tolerance && t.codec == "none") refuse("--codec-tol belongs to --codec lowrank");
-  if (t.compression_ratio) refuse("--compression-ratio belongs to --codec haar");
+  if (t.codec != "none" && t.codec != "haar" && t.codec != "lowrank")
+    refuse("--codec is none, haar or lowrank, not \"" + t.codec + "\"");
+  if (t.codec_tolerance && t.codec == "none")
+    refuse("--codec-tol belongs to --codec lowrank and haar");
+  if (t.compression_ratio && t.codec != "haar")
+    refuse("--compression-ratio belongs to --codec haar");
+  if (t.compression_ratio && t.codec_tolerance)
+    refuse("use either --compression-ratio or --codec-tol");
   if (t.corner_angle != "none")
     refuse("--corner-angle-deg with an angle is not supported yet; use --corner-angle-deg none");
   if (t.codec != "none" && t.precision != "float32")
     refuse("--precision belongs to --codec none; use --codec-tol with --codec " + t.codec);
   if (t.precision != "float32" && t.precision != "float64")
     refuse("--precision is float32 or float64, not \"" + t.precision + "\"");
-  if (t.codec == "none" && t.options.loads != "all" && t.options.loads != "none")
+  if (t.codec != "lowrank" && t.options.loads != "all" && t.options.loads != "none")
     refuse("--loads with a file needs --codec lowrank");
 }
 
@@ -205,9 +212,13 @@ Options checked(const CLI::App& app, Typed& t) {
     o.window = parse_window(t.window);
     o.precision = t.precision == "float32" ? Precision::float32 : Precision::float64;
     o.inverse = parse_inverse(t.inverse);
-    o.codec.codec = t.codec == "none" ? Codec::none : Codec::lowrank;
+    o.codec.codec = t.codec == "none"   ? Codec::none
+                    : t.codec == "haar" ? Codec::haar
+                                        : Codec::lowrank;
     if (t.codec_tolerance) o.codec.tolerance = *t.codec_tolerance;
     number_in("--codec-tol", o.codec.tolerance, 1e-6, 0.1);
+    if (t.compression_ratio)
+      o.codec.ratio = number_in("--compression-ratio", *t.compression_ratio, 1, 1e4);
     check_inputs(o);
   }
   check_distinct_files(o);
@@ -227,6 +238,8 @@ std::string Options::canonical_text() const {
   if (codec.codec == Codec::none)
     text +=
         std::string(" --precision ") + (precision == Precision::float32 ? "float32" : "float64");
+  else if (codec.ratio > 0)
+    text += " --compression-ratio " + to_text(codec.ratio);
   else
     text += " --codec-tol " + to_text(codec.tolerance);
   if (inverse) text += *inverse == InverseKind::dense ? " --inverse dense" : " --inverse iterative";

@@ -64,7 +64,7 @@ void plan_storage(const Options& o, Plan& plan) {
 }
 
 void estimate_bytes(bool sample, Plan& plan) {
-  if (plan.options.codec.codec == Codec::none || sample) {
+  if (plan.options.codec.codec != Codec::lowrank || sample) {
     const StoredEstimate stored = estimate_stored(plan.geometry, plan.options);
     plan.stored = stored.bytes;
     plan.compression_seconds = stored.assembly_seconds;
@@ -175,7 +175,7 @@ TimeEstimate estimate_time(const Plan& plan) {
   constexpr double kGrowthSteps = 150, kWriteSpeed = 1e9;
   const Discretisation& d = plan.options.discretisation;
   const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());
-  const bool compressed = plan.options.codec.codec != Codec::none;
+  const bool compressed = plan.options.codec.codec == Codec::lowrank;
   const bool single =
       plan.options.precision == Precision::float32 && d.quadrature_tolerance >= 1e-6;
   const bool dense = plan.options.inverse == InverseKind::dense;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "base/hdf5.hpp"
+#include "compress/haar_family.hpp"
+
+#include <functional>
+
+namespace bem {
+
+/// A HaarFamily in a group of an HDF5 file (docs/archive-format.md). `report` gets the bytes of
+/// large data that have been read or written.
+void write_haar(Hdf5File& file, const std::string& group, const HaarFamily& family,
+                const std::function<void(std::size_t)>& report);
+
+/// With `columns` (ascending) only the coefficients that meet them are kept. Throws
+/// ErrorCode::archive if the group does not describe a family of `count` matrices of `size`
+/// unknowns.
+std::unique_ptr<HaarFamily> read_haar(const Hdf5File& file, const std::string& group,
+                                      std::size_t size, int count, const std::vector<int>* columns,
+                                      const std::function<void(std::size_t)>& report);
+
+}  // namespace bem
