@@ -27,15 +27,19 @@ class Krylov {
 
   /// Takes the operator's value at next().
   void extend(Vector w) {
+    constexpr double kCancelled = 0.1;
     const std::size_t j = columns_.size();
     Vector h = Vector::Zero(static_cast<Eigen::Index>(j + 2));
-    for (int pass = 0; pass < 2; ++pass)
+    double norm = w.norm(), before = 0;
+    do {  // once more where much has cancelled
+      before = norm;
       for (std::size_t i = 0; i <= j; ++i) {
         const T c = basis_[i].dot(w);
         h[static_cast<Eigen::Index>(i)] += c;
         w -= c * basis_[i];
       }
-    const double norm = w.norm();
+      norm = w.norm();
+    } while (norm < kCancelled * before && norm > 0);
     h[static_cast<Eigen::Index>(j + 1)] = norm;
     for (std::size_t i = 0; i < j; ++i)
       h.applyOnTheLeft(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i + 1),
@@ -53,8 +57,8 @@ class Krylov {
     if (norm > std::numeric_limits<double>::min()) basis_.push_back(w / norm);
   }
 
-  /// Adds the correction that the space holds.
-  void add_to(Eigen::Ref<Vector> x) const {
+  /// The correction that the space holds.
+  void correction(Eigen::Ref<Vector> x) const {
     const auto n = static_cast<Eigen::Index>(columns_.size());
     Vector y(n);
     for (Eigen::Index i = n - 1; i >= 0; --i) {
@@ -62,6 +66,7 @@ class Krylov {
       for (Eigen::Index k = i + 1; k < n; ++k) sum -= columns_[k][i] * y[k];
       y[i] = sum / columns_[i][i];
     }
+    x.setZero();
     for (Eigen::Index i = 0; i < n; ++i) x += y[i] * basis_[i];
   }
 
@@ -75,8 +80,8 @@ class Krylov {
 }  // namespace
 
 template <class T>
-GmresResult gmres(const std::function<ColumnsOf<T>(const ColumnsOf<T>&)>& apply,
-                  const ColumnsOf<T>& b, ColumnsOf<T>& x, const GmresOptions& options) {
+GmresResult gmres(const ColumnOperator<T>& apply, const ColumnsOf<T>& b, ColumnsOf<T>& x,
+                  const GmresOptions& options, const ColumnOperator<T>& precondition) {
   constexpr int kPatience = 15;  // iterations in which the residual has to halve
   ColumnsOf<T> rest = b;
   if (!x.isZero(0)) rest -= apply(x);
@@ -99,19 +104,21 @@ GmresResult gmres(const std::function<ColumnsOf<T>(const ColumnsOf<T>&)>& apply,
     ColumnsOf<T> inputs(b.rows(), static_cast<Eigen::Index>(open.size()));
     for (std::size_t i = 0; i < open.size(); ++i)
       inputs.col(static_cast<Eigen::Index>(i)) = spaces[open[i]].next();
-    const ColumnsOf<T> outputs = apply(inputs);
+    const ColumnsOf<T> outputs = apply(precondition ? precondition(inputs) : inputs);
     for (std::size_t i = 0; i < open.size(); ++i)
       spaces[open[i]].extend(outputs.col(static_cast<Eigen::Index>(i)));
   }
-  for (Eigen::Index c = 0; c < b.cols(); ++c) spaces[c].add_to(x.col(c));
+  ColumnsOf<T> corrections(b.rows(), b.cols());
+  for (Eigen::Index c = 0; c < b.cols(); ++c) spaces[c].correction(corrections.col(c));
+  x += precondition ? precondition(corrections) : corrections;
   return result;
 }
 
-template GmresResult gmres(const std::function<ColumnsOf<double>(const ColumnsOf<double>&)>& apply,
-                           const ColumnsOf<double>& b, ColumnsOf<double>& x,
-                           const GmresOptions& options);
-template GmresResult gmres(
-    const std::function<ColumnsOf<Complex>(const ColumnsOf<Complex>&)>& apply,
-    const ColumnsOf<Complex>& b, ColumnsOf<Complex>& x, const GmresOptions& options);
+template GmresResult gmres<double>(const ColumnOperator<double>&, const ColumnsOf<double>&,
+                                   ColumnsOf<double>&, const GmresOptions&,
+                                   const ColumnOperator<double>&);
+template GmresResult gmres<Complex>(const ColumnOperator<Complex>&, const ColumnsOf<Complex>&,
+                                    ColumnsOf<Complex>&, const GmresOptions&,
+                                    const ColumnOperator<Complex>&);
 
 }  // namespace bem

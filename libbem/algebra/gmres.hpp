@@ -17,14 +17,18 @@ struct GmresResult {
   int iterations = 0;
 };
 
-/// Solves a x = b for several right-hand sides at once (n x count, each with a Krylov space of its
-/// own) by GMRES without restarts (Saad & Schultz 1986), from the x that is given. `apply` gets
-/// several vectors at a time. Ends early when rounding keeps the residuals from falling. Memory: n
-/// x count numbers per iteration. T: double, Complex.
 template <class T>
 using ColumnsOf = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+/// A linear map of several vectors at a time.
 template <class T>
-GmresResult gmres(const std::function<ColumnsOf<T>(const ColumnsOf<T>&)>& apply,
-                  const ColumnsOf<T>& b, ColumnsOf<T>& x, const GmresOptions& options);
+using ColumnOperator = std::function<ColumnsOf<T>(const ColumnsOf<T>&)>;
+
+/// Solves a x = b for several right-hand sides at once (n x count, each with a Krylov space of its
+/// own) by GMRES without restarts (Saad & Schultz 1986), from the x that is given, with the right
+/// preconditioner `precondition`, about a^{-1}, if there is one. Ends early when rounding keeps the
+/// residuals from falling. Memory: n x count numbers per iteration. T: double, Complex.
+template <class T>
+GmresResult gmres(const ColumnOperator<T>& apply, const ColumnsOf<T>& b, ColumnsOf<T>& x,
+                  const GmresOptions& options, const ColumnOperator<T>& precondition = nullptr);
 
 }  // namespace bem

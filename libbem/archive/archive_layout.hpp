@@ -13,6 +13,22 @@ inline const char* model_name(ModelKind kind) {
   return kind == ModelKind::rigid ? "rigid" : "dynamic";
 }
 
+/// Attribute "inverse" of the root.
+inline const char* inverse_name(bool iterative) {
+  return iterative ? "iterative" : "dense";
+}
+
+/// Attribute "loads" of the root.
+inline const char* loads_name(Loads loads) {
+  return loads == Loads::all ? "all" : loads == Loads::some ? "some" : "none";
+}
+
+/// Names of the matrices of lag 0: that of displacements, and that of tractions.
+inline const char* initial_name(bool iterative, bool tractions) {
+  if (iterative) return tractions ? "initial_g" : "initial_h";
+  return tractions ? "traction_response" : "inverse";
+}
+
 /// "lag_001".
 inline std::string lag_name(int lag) {
   const std::string digits = std::to_string(lag);
@@ -51,6 +67,9 @@ inline std::vector<std::string> initial_paths(const std::string& matrix, std::si
   if (parts > 1) paths.push_back(initial_path(matrix, component) + "/imaginary");
   return paths;
 }
+
+/// Of Loads::some: the nodes, [k].
+inline constexpr char kLoadedNodesPath[] = "/body/loaded_nodes";
 
 inline constexpr char kBodyForcePath[] = "/matrices/body_force";
 

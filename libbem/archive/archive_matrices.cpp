@@ -30,7 +30,7 @@ class Archive::Loading {
         precision_(archive.precision()),
         progress_(progress) {
     for (const FamilyPlace& place : archive.family_places())
-      if (is_traction(place) ? tractions : motion) total_ += bytes_of(place);
+      if (place.of_tractions ? tractions : motion) total_ += bytes_of(place);
   }
 
   double bytes() const { return total_; }
@@ -66,11 +66,6 @@ class Archive::Loading {
   }
 
  private:
-  static bool is_traction(const FamilyPlace& place) {
-    return place.group == lags_path("g") ||
-           place.group.find("traction_response") != std::string::npos;
-  }
-
   double bytes_of(const FamilyPlace& place) const {
     if (archive_.codec() == Codec::none)
       return static_cast<double>(place.paths.size()) * static_cast<double>(n_ * n_) *
@@ -161,6 +156,7 @@ class Archive::Loading {
 };
 
 BodyModel Archive::load(bool tractions, const Progress& progress) const {
+  tractions = tractions && loads_ != Loads::none;
   BodyModel model;
   model.kind = kind_;
   model.geometry = geometry_;
@@ -173,15 +169,19 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
   model.body_force = std::move(force.lags);
   model.initial_body_force = std::move(force.initial);
   model.codec = codec_;
+  model.loads = loads_;
+  model.loaded_nodes = loaded_nodes_;
   Loading loading(*this, true, tractions, progress);
   const auto load = [&](const std::string& group) -> std::unique_ptr<MatrixFamily> {
     for (const FamilyPlace& place : family_places())
       if (place.group == group) return loading.load(place);
     return nullptr;
   };
+  auto& h = iterative_ ? model.initial_h : model.inverse;
+  auto& g = iterative_ ? model.initial_g : model.traction_response;
   for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
-    model.inverse.push_back(load(initial_path("inverse", i)));
-    if (tractions) model.traction_response.push_back(load(initial_path("traction_response", i)));
+    h.push_back(load(initial_path(initial_name(iterative_, false), i)));
+    if (tractions) g.push_back(load(initial_path(initial_name(iterative_, true), i)));
   }
   model.h = load(lags_path("h"));
   if (tractions) model.g = load(lags_path("g"));
@@ -202,6 +202,7 @@ std::size_t Archive::history_coefficients() const {
 }
 
 Eigen::MatrixXd Archive::load_balance(const std::string& path) const {
+  if (path == kTractionBalancePath && loads_ == Loads::none) return Eigen::MatrixXd(6, 0);
   const std::vector<double> data = file_.read<double>(path, {6, unknowns()});
   const auto n = static_cast<Eigen::Index>(unknowns());
   return Eigen::Map<const Eigen::MatrixXd>(data.data(), n, 6).transpose();
@@ -226,15 +227,17 @@ TractionData Archive::load_tractions(const std::vector<int>& nodes,
   for (int node : nodes)
     require(node >= 0 && 3 * static_cast<std::size_t>(node) < unknowns(),
             "the nodes of tractions exist");
+  require(loads_ != Loads::none, "the archive has traction matrices");
   const std::vector<int> columns = unknowns_of(nodes);
   TractionData data;
   data.nodes = nodes;
   Loading loading(*this, false, true, progress);
   for (const FamilyPlace& place : family_places()) {
+    if (!place.of_tractions) continue;
     if (place.group == lags_path("g"))
       data.lags = loading.load_columns(place, columns);
-    else if (place.group.find("traction_response") != std::string::npos)
-      data.response.push_back(loading.load_columns(place, columns));
+    else
+      data.initial.push_back(loading.load_columns(place, columns));
   }
   return data;
 }

@@ -2,8 +2,10 @@
 
 #include "archive/archive_layout.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 
 namespace bem {
 namespace {
@@ -40,7 +42,19 @@ void Archive::read_kind() {
          "\", but this version of the program understands \"dynamic\" and \"rigid\" only");
 }
 
+/// What is stored, and how. Archives without "inverse" or "loads" have everything.
 void Archive::read_storage() {
+  if (file_.has_attribute("/", "inverse")) {
+    const std::string inverse = file_.string_attribute("/", "inverse");
+    iterative_ = inverse == inverse_name(true);
+    if (inverse != inverse_name(iterative_)) refuse("has the unknown inverse \"" + inverse + "\"");
+  }
+  if (file_.has_attribute("/", "loads")) {
+    const std::string loads = file_.string_attribute("/", "loads");
+    for (Loads kind : {Loads::all, Loads::some, Loads::none})
+      if (loads == loads_name(kind)) loads_ = kind;
+    if (loads != loads_name(loads_)) refuse("has the unknown loads \"" + loads + "\"");
+  }
   const std::string codec = file_.string_attribute("/", "codec");
   for (Codec compressed : {Codec::haar, Codec::lowrank})
     if (codec == codec_name(compressed)) {
@@ -120,6 +134,13 @@ void Archive::read_geometry() {
   g.mass.volume = file_.double_attribute("/body", "volume");
   g.mass.mass = file_.double_attribute("/body", "mass");
   g.extent = file_.double_attribute("/body", "extent");
+  if (loads_ != Loads::some) return;
+  const Hdf5Dims dims = file_.dims(kLoadedNodesPath);
+  loaded_nodes_ =
+      read_indices(kLoadedNodesPath, dims.empty() ? 0 : dims[0], 0, g.nodes.vertices.size());
+  if (std::adjacent_find(loaded_nodes_.begin(), loaded_nodes_.end(), std::greater_equal<>()) !=
+      loaded_nodes_.end())
+    refuse(std::string(kLoadedNodesPath) + " does not ascend");
 }
 
 void Archive::read_material() {
@@ -183,6 +204,9 @@ void Archive::read_report() {
   e.g = file_.double_attribute("/report", "codec_error_g");
   e.inverse = file_.double_attribute("/report", "codec_error_inverse");
   e.traction_response = file_.double_attribute("/report", "codec_error_traction_response");
+  if (!file_.has_attribute("/report", "codec_error_initial_h")) return;
+  e.initial_h = file_.double_attribute("/report", "codec_error_initial_h");
+  e.initial_g = file_.double_attribute("/report", "codec_error_initial_g");
 }
 
 void Archive::read_provenance() {
@@ -200,12 +224,22 @@ bool Archive::is_paired(std::size_t initial_component) const {
 std::vector<Archive::FamilyPlace> Archive::family_places() const {
   std::vector<FamilyPlace> places;
   if (kind_ == ModelKind::rigid) return places;
-  for (const char* matrix : {"inverse", "traction_response"})
+  const bool tractions = loads_ != Loads::none;
+  for (bool of_tractions : {false, true}) {
+    if (of_tractions && !tractions) break;
+    const char* matrix = initial_name(iterative_, of_tractions);
     for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i)
-      places.push_back({initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1)});
-  for (const char* matrix : {"h", "g"})
-    places.push_back({lags_path(matrix), lag_paths(matrix, discretisation_.history_length,
-                                                   static_cast<int>(lag_components()))});
+      places.push_back({initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1),
+                        of_tractions});
+  }
+  for (bool of_tractions : {false, true}) {
+    if (of_tractions && !tractions) break;
+    const char* matrix = of_tractions ? "g" : "h";
+    places.push_back(
+        {lags_path(matrix),
+         lag_paths(matrix, discretisation_.history_length, static_cast<int>(lag_components())),
+         of_tractions});
+  }
   return places;
 }
 

@@ -35,12 +35,18 @@ class Archive {
   Codec codec() const { return codec_; }
   /// Of uncompressed matrices.
   Precision precision() const { return precision_; }
+  /// Whether steps solve with H_0, as there is no inverse.
+  bool is_iterative() const { return iterative_; }
+  /// Where surface loads, contacts and joints may act.
+  Loads loads() const { return loads_; }
+  /// Of Loads::some, ascending.
+  const std::vector<int>& loaded_nodes() const { return loaded_nodes_; }
   const ModelReport& report() const { return report_; }
   const Provenance& provenance() const { return provenance_; }
   std::size_t unknowns() const { return 3 * geometry_.nodes.vertices.size(); }
 
-  /// What a motion without surface loads needs: h, inverse and both body forces; g and
-  /// traction_response stay empty. `progress` may throw to stop the loading.
+  /// What a motion without surface loads needs; g and the matrix of tractions of lag 0 stay empty.
+  /// `progress` may throw to stop the loading.
   BodyModel load_motion_matrices(const Progress& progress = nullptr) const;
 
   /// The complete model, as it was given to write_archive.
@@ -53,7 +59,8 @@ class Archive {
 
   BodyForce load_body_force() const;
 
-  /// One of the balance matrices at kBalancePath or kTractionBalancePath, 6 x unknowns.
+  /// One of the balance matrices at kBalancePath or kTractionBalancePath, 6 x unknowns; without
+  /// columns if it is that of tractions and no loads may act.
   Eigen::MatrixXd load_balance(const std::string& path) const;
 
   /// Bytes that the large matrices take in memory, those of motion alone or all of them.
@@ -78,6 +85,7 @@ class Archive {
   struct FamilyPlace {
     std::string group;
     std::vector<std::string> paths;
+    bool of_tractions;  ///< loads, contacts and joints alone need it
   };
   std::vector<FamilyPlace> family_places() const;
   [[noreturn]] void refuse(const std::string& what) const;
@@ -106,6 +114,9 @@ class Archive {
   double window_ = 1;
   Codec codec_ = Codec::none;
   Precision precision_ = Precision::float32;
+  bool iterative_ = false;
+  Loads loads_ = Loads::all;
+  std::vector<int> loaded_nodes_;
   ModelReport report_;
   Provenance provenance_;
 

@@ -6,6 +6,7 @@
 #include "archive/user_block.hpp"
 #include "base/hdf5.hpp"
 #include "base/pending_file.hpp"
+#include "compress/block_partition.hpp"
 #include "compress/dense_family.hpp"
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 namespace bem {
 namespace {
 
+constexpr double kBlockBytes = 68, kCouplingBytes = 24;  // of tables of compressed matrices
 constexpr std::size_t kTileBytes = std::size_t(32) << 20;
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -29,7 +31,8 @@ double overhead_bytes(const BodyGeometry& g, double datasets) {
 
 std::vector<const MatrixFamily*> large_families(const BodyModel& model) {
   std::vector<const MatrixFamily*> families;
-  for (const auto* group : {&model.inverse, &model.traction_response})
+  for (const auto* group :
+       {&model.inverse, &model.traction_response, &model.initial_h, &model.initial_g})
     for (const auto& family : *group) families.push_back(family.get());
   for (const auto* family : {model.h.get(), model.g.get()})
     if (family) families.push_back(family);
@@ -42,8 +45,8 @@ double table_bytes(const BodyModel& model) {
   for (const MatrixFamily* family : large_families(model))
     if (const auto* compressed = dynamic_cast<const LowRankFamily*>(family))
       for (const LowRankSlab& slab : compressed->slabs())
-        bytes += 12 + 68.0 * static_cast<double>(slab.blocks.size()) +
-                 24.0 * static_cast<double>(slab.couplings.size());
+        bytes += 12 + kBlockBytes * static_cast<double>(slab.blocks.size()) +
+                 kCouplingBytes * static_cast<double>(slab.couplings.size());
   return bytes;
 }
 
@@ -156,6 +159,8 @@ void write_report(Hdf5File& file, const ModelReport& r) {
   file.set_attribute("/report", "codec_error_g", r.codec_errors.g);
   file.set_attribute("/report", "codec_error_inverse", r.codec_errors.inverse);
   file.set_attribute("/report", "codec_error_traction_response", r.codec_errors.traction_response);
+  file.set_attribute("/report", "codec_error_initial_h", r.codec_errors.initial_h);
+  file.set_attribute("/report", "codec_error_initial_g", r.codec_errors.initial_g);
 }
 
 void write_provenance(Hdf5File& file, const Provenance& p) {
@@ -235,23 +240,26 @@ void write_body_force(Hdf5File& file, const BodyModel& model) {
 void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& progress) {
   MatrixWriter writer(file, matrix_bytes(model), progress);
   write_body_force(file, model);
+  const bool iterative = model.is_iterative(), tractions = model.loads != Loads::none;
   write_small(file, kBalancePath, model.balance);
-  write_small(file, kTractionBalancePath, model.traction_balance);
-  const auto write_initial = [&](const char* name,
+  if (tractions) write_small(file, kTractionBalancePath, model.traction_balance);
+  const auto write_initial = [&](bool of_tractions,
                                  const std::vector<std::unique_ptr<MatrixFamily>>& families) {
+    const char* name = initial_name(iterative, of_tractions);
     for (std::size_t i = 0; i < families.size(); ++i)
       writer.write(initial_path(name, i), initial_paths(name, i, families[i]->count()),
                    *families[i]);
+    file.set_attribute(lags_path(name), "unit", of_tractions ? "m/Pa" : "1");
   };
-  write_initial("inverse", model.inverse);
-  write_initial("traction_response", model.traction_response);
-  for (const auto& [name, family] : {std::pair("h", model.h.get()), std::pair("g", model.g.get())})
+  write_initial(false, iterative ? model.initial_h : model.inverse);
+  if (tractions) write_initial(true, iterative ? model.initial_g : model.traction_response);
+  const auto write_lags = [&](const char* name, const MatrixFamily& family, const char* unit) {
     writer.write(lags_path(name),
-                 lag_paths(name, model.discretisation.history_length, model.components()), *family);
-  file.set_attribute("/matrices/h", "unit", "1");
-  file.set_attribute("/matrices/g", "unit", "m/Pa");
-  file.set_attribute("/matrices/inverse", "unit", "1");
-  file.set_attribute("/matrices/traction_response", "unit", "m/Pa");
+                 lag_paths(name, model.discretisation.history_length, model.components()), family);
+    file.set_attribute(lags_path(name), "unit", unit);
+  };
+  write_lags("h", *model.h, "1");
+  if (tractions) write_lags("g", *model.g, "m/Pa");
 }
 
 void check_complete(const BodyModel& model) {
@@ -261,9 +269,12 @@ void check_complete(const BodyModel& model) {
   const auto is_whole = [&](const std::unique_ptr<MatrixFamily>& family) {
     return family && family->count() == static_cast<int>(lags);
   };
-  require(is_whole(model.h) && is_whole(model.g) && model.body_force.size() == lags &&
-              model.inverse.size() == initial && model.traction_response.size() == initial &&
-              model.initial_body_force.size() == initial,
+  const bool iterative = model.is_iterative(), tractions = model.loads != Loads::none;
+  const auto& h = iterative ? model.initial_h : model.inverse;
+  const auto& g = iterative ? model.initial_g : model.traction_response;
+  require(is_whole(model.h) && h.size() == initial && model.body_force.size() == lags &&
+              model.initial_body_force.size() == initial &&
+              (!tractions || (is_whole(model.g) && g.size() == initial)),
           "all matrices of a model that is archived are in memory");
 }
 
@@ -280,12 +291,22 @@ void check_archive_target(const std::string& path, bool force, double bytes) {
   check_free_space(path, bytes);
 }
 
-double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& options) {
+double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& options,
+                     double stored) {
   const Discretisation& d = options.discretisation;
   if (options.kind == ModelKind::rigid) return overhead_bytes(geometry, 0);
   const double lags = d.history_length * static_cast<double>(d.scheme.lag_components().size());
-  return precompute_memory(geometry.nodes.vertices.size(), options).stored +
-         overhead_bytes(geometry, 2 * lags);
+  const double kinds = options.loads == Loads::none ? 1 : 2;
+  if (options.codec.codec != Codec::lowrank) return stored + overhead_bytes(geometry, kinds * lags);
+  const double blocks = [&] {
+    double count = 0;
+    for (const Slab& s : make_partition(geometry.nodes.vertices, {}))
+      count += static_cast<double>(s.blocks.size());
+    return count;
+  }();
+  const double matrices = kinds * (lags + d.scheme.initial_components().size() * 2.0);
+  return stored + blocks * (kBlockBytes * 2 * kinds + kCouplingBytes * matrices) +
+         overhead_bytes(geometry, 10 * kinds);
 }
 
 void write_archive(const std::string& path, const BodyModel& model, const Provenance& provenance,
@@ -312,6 +333,9 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
     if (model.codec == Codec::none)
       file.set_attribute("/", "precision",
                          model.precision == Precision::float32 ? "float32" : "float64");
+    file.set_attribute("/", "inverse", inverse_name(model.is_iterative()));
+    file.set_attribute("/", "loads", loads_name(model.loads));
+    if (model.loads == Loads::some) write_indices(file, kLoadedNodesPath, model.loaded_nodes);
     write_scheme(file, model);
     write_report(file, model.report);
     write_matrices(file, model, progress);

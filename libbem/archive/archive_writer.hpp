@@ -12,8 +12,8 @@ namespace bem {
 /// cannot be written or has less than `bytes` of free space.
 void check_archive_target(const std::string& path, bool force, double bytes = 0);
 
-/// Size of the file [bytes], within 1 % above 1 MB.
-double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& options);
+/// Size of the file [bytes] when the large matrices take `stored` (model/memory_estimate.hpp).
+double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& options, double stored);
 
 /// Writes an archive (docs/archive-format.md): under a temporary name beside `path`, which gets its
 /// own name when everything is on the disk. Whatever fails or is thrown by `progress` leaves

@@ -17,9 +17,10 @@ struct BlockFactors {
   double squared_error = 0;           ///< sum_k |X_k - Q C_k P^T|^2, estimated
 };
 
-/// Finds the bases from products with random vectors (Halko, Martinsson & Tropp 2011), which are
-/// the same for every block, and leaves out directions that carry less than about `least`. About
-/// m n K (p + r) multiply-adds.
+/// Finds the bases from Gram matrices, of large blocks after a projection that products with random
+/// vectors give (Halko, Martinsson & Tropp 2011; the vectors are the same for every block), and
+/// leaves out directions that carry less than about `least`. About m n K (min(m, 240) + p + r)
+/// multiply-adds.
 BlockFactors factor_block(const std::vector<MatrixView<float>>& matrices, double least);
 
 }  // namespace bem

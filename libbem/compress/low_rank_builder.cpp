@@ -108,6 +108,13 @@ void LowRankBuilder::encode_with_bases(const BlockFactors& factors, Encoded& out
         std::pow(factors.input_weights[i] * out.input_scales[i], 2) * inputs.row(i).squaredNorm();
 }
 
+/// Nothing of a block counts.
+LowRankBuilder::Encoded LowRankBuilder::without_numbers(Encoded block) const {
+  block.block.plain = true;
+  block.couplings.assign(count_, Layers());
+  return block;
+}
+
 LowRankBuilder::Encoded LowRankBuilder::encode(
     const NodeBlock& b, int slab_begin, const std::vector<MatrixView<float>>& matrices) const {
   std::vector<MatrixView<float>> views;
@@ -121,14 +128,14 @@ LowRankBuilder::Encoded LowRankBuilder::encode(
   out.block.column_begin = 3 * b.column_begin;
   out.block.column_end = 3 * b.column_end;
   Encoded plain = out;
+  const auto is_zero = [](const MatrixView<float>& v) { return v.isZero(0); };
+  if (std::all_of(views.begin(), views.end(), is_zero)) return without_numbers(std::move(out));
   const BlockFactors factors = factor_block(views, kLeast * quantum_);
   if (factors.output_weights.size() > 0) {
     encode_with_bases(factors, out);
-  } else {  // nothing of it counts: plain without numbers
-    out.block.plain = true;
-    out.couplings.assign(count_, Layers());
+  } else {
     out.squared_error = factors.squared_error;
-    return out;
+    return without_numbers(std::move(out));
   }
   const double most =
       kWorthTrying * static_cast<double>(std::min(out.block.rows(), out.block.columns()));

@@ -31,6 +31,7 @@ class LowRankBuilder : public FamilyBuilder<float> {
                                         double quantum, std::size_t every);
   Encoded encode(const NodeBlock& block, int slab_begin,
                  const std::vector<MatrixView<float>>& matrices) const;
+  Encoded without_numbers(Encoded block) const;
   void encode_with_bases(const BlockFactors& factors, Encoded& out) const;
 
   std::vector<Slab> partition_;

@@ -2,17 +2,15 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "contact/bounding_tree.hpp"
 #include "contact/edge_contacts.hpp"
 #include "contact/mirrored_contacts.hpp"
-#include "contact/moving_surface.hpp"
 #include "contact/plane_contacts.hpp"
-#include "contact/surface_topology.hpp"
+#include "contact/swept_surface.hpp"
 #include "contact/vertex_contacts.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 namespace bem {
@@ -21,100 +19,76 @@ namespace {
 /// Surfaces whose boxes overlap, or (with second >= number of surfaces) a surface and a plane.
 using Pair = std::pair<int, int>;
 
-/// A surface with the boxes of what its parts sweep during the step, widened by half the distance
-/// at which surfaces see each other.
-struct SweptSurface {
-  SurfaceTopology topology;
-  std::optional<BoundingTree> tree;
-  std::vector<BoundingBox> vertex_boxes;
-  BoundingBox box;
-  std::vector<Vec3> resting;  ///< where it was when its boxes were last made, if it did not move
-  bool refit = false;
-
-  void sweep(const SurfaceMotion& motion, double reach);
-
-  BoundingBox triangle_box(int t) const {
-    const Triangle& c = topology.triangles[t];
-    BoundingBox result = vertex_boxes[c[0]];
-    extend(result, vertex_boxes[c[1]]);
-    extend(result, vertex_boxes[c[2]]);
-    return result;
-  }
-  BoundingBox edge_box(int e) const {
-    const auto& ends = topology.edges[e].vertices;
-    BoundingBox result = vertex_boxes[ends[0]];
-    extend(result, vertex_boxes[ends[1]]);
-    return result;
-  }
+/// What is known of two close surfaces, or of one with itself.
+struct PairState {
+  long boxes_a = -1, boxes_b = -1;             ///< versions that `triangles` are of
+  long motion_a = -1, motion_b = -1;           ///< versions that `contacts` are of
+  std::vector<std::pair<int, int>> triangles;  ///< whose boxes with slack overlap
+  std::vector<Contact> contacts;
 };
 
-void SweptSurface::sweep(const SurfaceMotion& motion, double reach) {
-  const std::vector<Vec3>&start = *motion.start, &end = *motion.end;
-  require(static_cast<int>(start.size()) == topology.vertex_count() && end.size() == start.size(),
-          "a motion has the vertices of its surface");
-  const bool rests = motion.start == motion.end || start == end;
-  if (rests && !resting.empty() && resting == start) return;
-  resting = rests ? start : std::vector<Vec3>();
-  const Vec3 wide = Vec3::Constant(0.5 * reach);
-  vertex_boxes.resize(start.size());
-  for (std::size_t v = 0; v < start.size(); ++v)
-    vertex_boxes[v] = {start[v].cwiseMin(end[v]) - wide, start[v].cwiseMax(end[v]) + wide};
-  box = vertex_boxes.empty() ? BoundingBox() : vertex_boxes.front();
-  for (const BoundingBox& b : vertex_boxes) extend(box, b);
-  if (!tree) tree.emplace(topology.triangles, start);
-  refit = true;
+std::vector<std::pair<int, int>> close_triangles(const SweptSurface& a, const SweptSurface& b) {
+  std::vector<std::pair<int, int>> found;
+  auto add = [&](int s, int t) { found.emplace_back(s, t); };
+  if (a.topology().triangles.empty() || b.topology().triangles.empty()) return found;
+  if (&a == &b)
+    visit_self_overlaps(a.tree(), 0, add);
+  else
+    visit_overlaps(a.tree(), 0, b.tree(), 0, add);
+  return found;
 }
 
 /// Close pairs of features of two surfaces, or of one with itself.
 class FeaturePairs {
  public:
-  FeaturePairs(const SweptSurface& a, const MovingSurface& moving_a, const SweptSurface& b,
-               const MovingSurface& moving_b, const ContactLimits& limits)
-      : a_(a), b_(b), moving_a_(moving_a), moving_b_(moving_b), limits_(limits), self_(&a == &b) {}
+  FeaturePairs(const SweptSurface& a, int index_a, const SweptSurface& b, int index_b,
+               const ContactLimits& limits)
+      : a_(a),
+        b_(b),
+        moving_a_(a.moving(index_a)),
+        moving_b_(b.moving(index_b)),
+        limits_(limits),
+        self_(&a == &b) {}
 
-  std::vector<Contact> contacts() {
-    if (a_.topology.triangles.empty() || b_.topology.triangles.empty()) return {};
-    if (self_)
-      visit_self_overlaps(*a_.tree, 0, *this);
-    else
-      visit_overlaps(*a_.tree, 0, *b_.tree, 0, *this);
+  std::vector<Contact> contacts(const std::vector<std::pair<int, int>>& triangles) {
+    for (const auto& [s, t] : triangles)
+      if (overlap(a_.triangle_box(s), b_.triangle_box(t))) add_triangles(s, t);
     add_vertices(vertices_of_a_, moving_a_, moving_b_);
     add_vertices(vertices_of_b_, moving_b_, moving_a_);
     if (!self_) remove_mirrored(limits_, moving_a_, moving_b_, contacts_);
     return std::move(contacts_);
   }
 
-  /// Triangle s of surface a and t of surface b are close.
-  void operator()(int s, int t) {
+ private:
+  void add_triangles(int s, int t) {
     collect_vertices(a_, s, b_, t, vertices_of_a_);
     collect_vertices(b_, t, a_, s, self_ ? vertices_of_a_ : vertices_of_b_);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        if (a_.topology.owned_edges[s] >> i & 1 && b_.topology.owned_edges[t] >> j & 1)
-          add_edges(a_.topology.triangle_edges[s][i], b_.topology.triangle_edges[t][j]);
+        if (a_.topology().owned_edges[s] >> i & 1 && b_.topology().owned_edges[t] >> j & 1)
+          add_edges(a_.topology().triangle_edges[s][i], b_.topology().triangle_edges[t][j]);
   }
 
- private:
   /// Vertices that triangle s owns, close to triangle t of the other surface.
   void collect_vertices(const SweptSurface& x, int s, const SweptSurface& y, int t,
                         std::vector<std::pair<int, int>>& pairs) const {
-    if (x.topology.owned_vertices[s] == 0) return;
+    if (x.topology().owned_vertices[s] == 0) return;
     const BoundingBox box = y.triangle_box(t);
-    const Triangle& other = y.topology.triangles[t];
+    const Triangle& other = y.topology().triangles[t];
     for (int k = 0; k < 3; ++k) {
-      const int v = x.topology.triangles[s][k];
-      if (!(x.topology.owned_vertices[s] >> k & 1) || !overlap(x.vertex_boxes[v], box)) continue;
+      const int v = x.topology().triangles[s][k];
+      if (!(x.topology().owned_vertices[s] >> k & 1) || !overlap(x.vertex_box(v), box)) continue;
       if (self_ && std::find(other.begin(), other.end(), v) != other.end()) continue;
       pairs.emplace_back(v, t);
     }
   }
 
   void add_edges(int e, int f) {
-    if (!overlap(a_.edge_box(e), b_.edge_box(f))) return;
+    if (!a_.is_ridge(e) || !b_.is_ridge(f) || !overlap(a_.edge_box(e), b_.edge_box(f))) return;
     if (self_) {
       if (e > f) std::swap(e, f);
-      const auto& p = a_.topology.edges[e].vertices;
-      const auto& q = a_.topology.edges[f].vertices;
+      const auto& p = a_.topology().edges[e].vertices;
+      const auto& q = a_.topology().edges[f].vertices;
       if (p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1]) return;
     }
     add_edge_contact(moving_a_, e, moving_b_, f, limits_, contacts_);
@@ -136,8 +110,7 @@ class FeaturePairs {
 
   const SweptSurface& a_;
   const SweptSurface& b_;
-  const MovingSurface& moving_a_;
-  const MovingSurface& moving_b_;
+  MovingSurface moving_a_, moving_b_;
   ContactLimits limits_;
   bool self_;
   std::vector<std::pair<int, int>> vertices_of_a_, vertices_of_b_;  ///< with triangles of the other
@@ -166,9 +139,13 @@ struct CollisionDetector::State {
            std::find(ignored.begin(), ignored.end(), Pair(b, a)) == ignored.end();
   }
 
+  std::map<Pair, PairState> pairs;  ///< of the last detection
+
   /// Every pair that may have contacts, first < second, sorted. Sweep along x.
   std::vector<Pair> close_pairs() const;
-  std::vector<Contact> contacts(const Pair& pair, const std::vector<MovingSurface>& moving) const;
+  /// Takes the pairs, with what is known of them already.
+  std::vector<std::pair<const Pair, PairState>*> keep_pairs(const std::vector<Pair>& close);
+  void update(const Pair& pair, PairState& known) const;
 };
 
 std::vector<Pair> CollisionDetector::State::close_pairs() const {
@@ -176,42 +153,68 @@ std::vector<Pair> CollisionDetector::State::close_pairs() const {
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return std::make_pair(surfaces[a].box.min[0], a) < std::make_pair(surfaces[b].box.min[0], b);
+    return std::make_pair(surfaces[a].box().min[0], a) <
+           std::make_pair(surfaces[b].box().min[0], b);
   });
-  std::vector<Pair> pairs;
+  std::vector<Pair> close;
   for (int i = 0; i < count; ++i) {
     const int a = order[i];
-    if (self_contact[a]) pairs.emplace_back(a, a);
+    if (self_contact[a]) close.emplace_back(a, a);
     for (int j = i + 1; j < count; ++j) {
       const int b = order[j];
-      if (surfaces[b].box.min[0] > surfaces[a].box.max[0]) break;
-      if (!(prescribed[a] && prescribed[b]) && overlap(surfaces[a].box, surfaces[b].box) &&
+      if (surfaces[b].box().min[0] > surfaces[a].box().max[0]) break;
+      if (!(prescribed[a] && prescribed[b]) && overlap(surfaces[a].box(), surfaces[b].box()) &&
           is_allowed(a, b))
-        pairs.emplace_back(std::min(a, b), std::max(a, b));
+        close.emplace_back(std::min(a, b), std::max(a, b));
     }
     for (std::size_t p = 0; p < planes.size(); ++p)
-      if (!prescribed[a] && reaches(surfaces[a].box, planes[p]) &&
+      if (!prescribed[a] && reaches(surfaces[a].box(), planes[p]) &&
           is_allowed(a, count + static_cast<int>(p)))
-        pairs.emplace_back(a, count + static_cast<int>(p));
+        close.emplace_back(a, count + static_cast<int>(p));
   }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
+  std::sort(close.begin(), close.end());
+  return close;
 }
 
-std::vector<Contact> CollisionDetector::State::contacts(
-    const Pair& pair, const std::vector<MovingSurface>& moving) const {
+std::vector<std::pair<const Pair, PairState>*> CollisionDetector::State::keep_pairs(
+    const std::vector<Pair>& close) {
+  std::map<Pair, PairState> kept;
+  for (const Pair& pair : close) {
+    const auto known = pairs.find(pair);
+    kept.emplace_hint(kept.end(), pair,
+                      known == pairs.end() ? PairState() : std::move(known->second));
+  }
+  pairs = std::move(kept);
+  std::vector<std::pair<const Pair, PairState>*> out;
+  for (auto& entry : pairs) out.push_back(&entry);
+  return out;
+}
+
+/// Finds the contacts of a pair; what cannot have changed since the last time is kept.
+void CollisionDetector::State::update(const Pair& pair, PairState& known) const {
   const auto [a, b] = pair;
   const int count = static_cast<int>(surfaces.size());
+  const SweptSurface& surface = surfaces[a];
   if (b >= count) {
-    std::vector<Contact> found;
+    known.contacts.clear();
     const CollisionPlane& plane = planes[b - count];
-    add_plane_contacts(moving[a], b, plane.point, plane.normal, options, found);
-    return found;
+    add_plane_contacts(surface.moving(a), b, plane.point, plane.normal, options, known.contacts);
+    return;
+  }
+  const SweptSurface& other = surfaces[b];
+  if (known.motion_a == surface.motion_version() && known.motion_b == other.motion_version())
+    return;
+  known.motion_a = surface.motion_version();
+  known.motion_b = other.motion_version();
+  if (known.boxes_a != surface.boxes_version() || known.boxes_b != other.boxes_version()) {
+    known.boxes_a = surface.boxes_version();
+    known.boxes_b = other.boxes_version();
+    known.triangles = close_triangles(surface, other);
   }
   ContactLimits limits = options;
   // The other side of a thin wall is near, but nothing has come through it.
   if (a == b) limits.recovery_depth = limits.tolerance;
-  return FeaturePairs(surfaces[a], moving[a], surfaces[b], moving[b], limits).contacts();
+  known.contacts = FeaturePairs(surface, a, other, b, limits).contacts(known.triangles);
 }
 
 CollisionDetector::CollisionDetector(std::vector<CollisionSurface> surfaces,
@@ -219,11 +222,10 @@ CollisionDetector::CollisionDetector(std::vector<CollisionSurface> surfaces,
     : state_(std::make_unique<State>()) {
   state_->planes = std::move(planes);
   state_->options = std::move(options);
-  state_->surfaces.resize(surfaces.size());
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    state_->surfaces[i].topology = make_topology(surfaces[i].triangles, surfaces[i].vertex_count);
-    state_->prescribed.push_back(surfaces[i].prescribed);
-    state_->self_contact.push_back(surfaces[i].self_contact);
+  for (const CollisionSurface& s : surfaces) {
+    state_->surfaces.emplace_back(make_topology(s.triangles, s.vertex_count));
+    state_->prescribed.push_back(s.prescribed);
+    state_->self_contact.push_back(s.self_contact);
   }
 }
 
@@ -239,25 +241,23 @@ std::vector<Contact> CollisionDetector::detect(const std::vector<SurfaceMotion>&
   State& state = *state_;
   require(motions.size() == state.surfaces.size(), "every surface has a motion");
   const double reach = std::max(state.options.margin, state.options.recovery_depth);
-  std::vector<MovingSurface> moving;
-  for (std::size_t i = 0; i < motions.size(); ++i)
-    moving.push_back(
-        {static_cast<int>(i), &state.surfaces[i].topology, motions[i].start, motions[i].end});
-  parallel_for(motions.size(), [&](std::size_t i) { state.surfaces[i].sweep(motions[i], reach); });
-  const std::vector<Pair> pairs = state.close_pairs();
+  std::vector<SweptSurface>& surfaces = state.surfaces;
+  parallel_for(motions.size(), [&](std::size_t i) {
+    surfaces[i].sweep(*motions[i].start, *motions[i].end, reach);
+  });
+  const std::vector<Pair> close = state.close_pairs();
   std::vector<char> used(motions.size(), 0);
-  for (const auto& [a, b] : pairs)
+  for (const auto& [a, b] : close)
     if (b < static_cast<int>(motions.size())) used[a] = used[b] = 1;
   parallel_for(motions.size(), [&](std::size_t i) {
-    SweptSurface& surface = state.surfaces[i];
-    if (used[i] && surface.refit)
-      surface.tree->refit(surface.topology.triangles, surface.vertex_boxes);
-    if (used[i]) surface.refit = false;
+    if (used[i]) surfaces[i].prepare();
   });
-  std::vector<std::vector<Contact>> found(pairs.size());
-  parallel_for(pairs.size(), [&](std::size_t i) { found[i] = state.contacts(pairs[i], moving); });
+  const auto pairs = state.keep_pairs(close);
+  parallel_for(pairs.size(),
+               [&](std::size_t i) { state.update(pairs[i]->first, pairs[i]->second); });
   std::vector<Contact> contacts;
-  for (const auto& part : found) contacts.insert(contacts.end(), part.begin(), part.end());
+  for (const auto* pair : pairs)
+    contacts.insert(contacts.end(), pair->second.contacts.begin(), pair->second.contacts.end());
   std::sort(contacts.begin(), contacts.end(),
             [](const Contact& x, const Contact& y) { return x.key < y.key; });
   return contacts;

@@ -37,8 +37,9 @@ struct ContactKey {
   ContactKind kind = ContactKind::vertex_plane;
   int feature_a = -1;  ///< vertex or edge
   int feature_b = -1;  ///< triangle or edge; 0 for a plane
+  int view = 0;        ///< 0: as seen last; others: as seen before in the same step
 
-  auto tuple() const { return std::tie(surface_a, surface_b, kind, feature_a, feature_b); }
+  auto tuple() const { return std::tie(surface_a, surface_b, kind, feature_a, feature_b, view); }
   bool operator<(const ContactKey& other) const { return tuple() < other.tuple(); }
   bool operator==(const ContactKey& other) const { return tuple() == other.tuple(); }
   bool operator!=(const ContactKey& other) const { return !(*this == other); }

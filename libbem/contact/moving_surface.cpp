@@ -20,9 +20,15 @@ Vec3 unit(const Vec3& v) {
 
 }  // namespace
 
-Vec3 triangle_normal(const MovingSurface& surface, int triangle, double t) {
-  const auto [a, b, c] = surface.triangle(triangle, t);
+Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   return unit((b - a).cross(c - a));
+}
+
+Vec3 triangle_normal(const MovingSurface& surface, int triangle, double t) {
+  if (surface.normals && t == 0) return surface.normals->start[triangle];
+  if (surface.normals && t == 1) return surface.normals->end[triangle];
+  const auto [a, b, c] = surface.triangle(triangle, t);
+  return unit_normal(a, b, c);
 }
 
 Vec3 vertex_normal(const MovingSurface& surface, int vertex, double t) {
@@ -70,7 +76,7 @@ TrianglePlace place_at_triangle(const Vec3& point, const MovingSurface& surface,
   const auto [p, q, r] = surface.triangle(triangle, t);
   TrianglePlace place;
   place.closest = closest_on_triangle(point, p, q, r);
-  place.normal = unit((q - p).cross(r - p));
+  place.normal = triangle_normal(surface, triangle, t);
   const Vec3 between = point - place.closest.point;
   place.height = place.normal.dot(between);
   place.overhang = (between - place.height * place.normal).norm();

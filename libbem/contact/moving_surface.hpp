@@ -7,12 +7,18 @@
 
 namespace bem {
 
+/// Unit normals of all triangles of a surface.
+struct SurfaceNormals {
+  std::vector<Vec3> start, end;
+};
+
 /// A surface in a step whose vertices move on straight lines; t in [0, 1] is the time.
 struct MovingSurface {
   int index = -1;
   const SurfaceTopology* topology = nullptr;
   const std::vector<Vec3>* start = nullptr;
   const std::vector<Vec3>* end = nullptr;
+  const SurfaceNormals* normals = nullptr;  ///< if they are known already
 
   Vec3 vertex(int v, double t) const {
     if (t == 0) return (*start)[v];
@@ -26,6 +32,9 @@ struct MovingSurface {
     return {vertex(c[0], t), vertex(c[1], t), vertex(c[2], t)};
   }
 };
+
+/// Unit normal of the triangle a, b, c; zero if it has no area.
+Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Unit normal of a triangle at time t; zero for a triangle without area.
 Vec3 triangle_normal(const MovingSurface& surface, int triangle, double t);

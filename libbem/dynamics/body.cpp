@@ -128,7 +128,24 @@ void Body::begin_step(SpectralState free, bool held, const std::optional<Holder>
   end_known_ = false;
 }
 
+/// Refuses contacts where the archive has no loads.
+void Body::check_loadable(const std::vector<int>& nodes) const {
+  const BodyModel& m = model();
+  if (!elastic_ || m.loads == Loads::all) return;
+  for (int node : nodes) {
+    if (std::binary_search(m.loaded_nodes.begin(), m.loaded_nodes.end(), node)) continue;
+    const std::vector<int>& of_vertex = m.geometry.node_of_vertex;
+    const auto vertex = std::find(of_vertex.begin(), of_vertex.end(), node) - of_vertex.begin();
+    throw Error(ErrorCode::archive,
+                "the body \"" + spec_.name + "\" is touched at vertex " +
+                    std::to_string(vertex) +
+                    ", where its archive has no loads; make it again with --loads all, or with a "
+                    "file that has this vertex");
+  }
+}
+
 void Body::set_contact_nodes(std::vector<int> nodes) {
+  check_loadable(nodes);
   contact_nodes_ = std::move(nodes);
   contact_forces_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * contact_nodes_.size()));
   contact_moment_.setZero();

@@ -53,6 +53,7 @@ class Body {
   /// matrices of the model.
   const LagHistory& displacement_history() const { return elastic_->displacement_history(); }
   Eigen::MatrixXd history_sums() const { return elastic_->history_sums(loads_); }
+  SolutionMemory& solution_memory() { return elastic_->solution_memory(); }
 
   /// Starts a step from the displacements without new loads (rigid bodies: none). Joint forces
   /// start from those of the last step. `held`: joints hold the body in the world; `holder`: they
@@ -123,6 +124,7 @@ class Body {
   Impulses impulses() const;
 
  private:
+  void check_loadable(const std::vector<int>& nodes) const;
   double stage_time(int stage) const;
   FrameLoads frame_loads() const;
   double contact_gain() const;

@@ -34,6 +34,8 @@ class ElasticPart {
               std::vector<int> joint_nodes);
 
   const LagHistory& displacement_history() const { return displacement_history_; }
+  /// Of the displacements without new loads.
+  SolutionMemory& solution_memory() { return solution_memory_; }
   /// What the history of everything but the displacements contributes: 3N x components.
   Eigen::MatrixXd history_sums(const std::vector<PrescribedLoad>& loads) const;
   /// Starts a step, without contact nodes, from the displacements without new loads. `leak`: of the
@@ -89,6 +91,7 @@ class ElasticPart {
   double leak_ = 0;
   LagHistory displacement_history_, acceleration_history_;
   NodalHistory traction_history_;
+  SolutionMemory solution_memory_;
   SpectralState free_;
   /// Compliances that displacements() needs; those among joint nodes last for the whole run.
   std::vector<Eigen::MatrixXd> joint_joint_, joint_contact_, contact_joint_;

@@ -27,9 +27,11 @@ struct Impulses {
   }
 };
 
-/// Linear momentum of all bodies against the impulses since the start.
+/// Momentum of all bodies: the linear one against the impulses since the start, the angular one as
+/// it is, about the origin of the world.
 struct MomentumBalance {
-  Vec3 start = Vec3::Zero(), end = Vec3::Zero();  ///< [N s]
+  Vec3 start = Vec3::Zero(), end = Vec3::Zero();                  ///< [N s]
+  Vec3 angular_start = Vec3::Zero(), angular_end = Vec3::Zero();  ///< [N m s]
   Impulses impulses;
   double scale = 0;  ///< |start| plus the magnitudes of the impulses of all steps [N s]
 

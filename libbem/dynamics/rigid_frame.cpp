@@ -183,6 +183,12 @@ Vec3 RigidFrame::momentum() const {
   return mass_ * v;
 }
 
+Vec3 RigidFrame::spin() const {
+  Vec3 l = state_.angular_momentum;
+  if (multistep_) l += 0.5 * theta_ * (state_.angular_momentum - previous_.angular_momentum);
+  return l;
+}
+
 Vec3 RigidFrame::translation() const {
   return state_.position + 0.5 * time() * time() * gravity_;
 }

@@ -83,6 +83,8 @@ class RigidFrame {
   /// methods spread the effect of a force over several steps; theirs is that of the velocity they
   /// come to when nothing acts any more.
   Vec3 momentum() const;
+  /// The same of the rotation, about the centre of mass [N m s].
+  Vec3 spin() const;
 
   const Mat3& rotation() const { return state_.rotation; }
   Vec3 translation() const;

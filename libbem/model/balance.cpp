@@ -2,6 +2,7 @@
 
 #include "algebra/gmres.hpp"
 #include "base/error.hpp"
+#include "compress/complex_product.hpp"
 #include "model/elastic_system.hpp"
 
 #include <Eigen/QR>
@@ -44,18 +45,22 @@ class Adjoint {
   Columns initial(const std::vector<std::unique_ptr<MatrixFamily>>& families,
                   const Columns& z) const {
     Columns out = Columns::Zero(z.rows(), z.cols());
-    for (std::size_t i = 0; i < families.size(); ++i) {
-      const InitialComponent& c = scheme_.initial_components()[i];
-      const MatrixFamily& family = *families[i];
-      const Columns real = combine(c.left.real(), z), imaginary = combine(c.left.imag(), z);
-      Eigen::MatrixXcd product = transposed(family, 0, real).cast<Complex>();
-      product.imag() = transposed(family, 0, imaginary);
-      if (family.count() > 1) {
-        product.real() -= transposed(family, 1, imaginary);
-        product.imag() += transposed(family, 1, real);
-      }
-      for (int b = 0; b < scheme_.stages(); ++b)
-        stage(out, b) += c.multiplicity() * (c.right[b] * product).real();
+    for (std::size_t i = 0; i < families.size(); ++i)
+      spread(i, multiply_complex_transposed(*families[i], component(i, z)), out);
+    return out;
+  }
+
+  /// About H_0^{-T} z, and H_0^T times that.
+  struct Preconditioned {
+    Columns forces, product;
+  };
+  Preconditioned precondition(const ElasticSystem& system, const Columns& z) const {
+    Preconditioned out{Columns::Zero(z.rows(), z.cols()), Columns::Zero(z.rows(), z.cols())};
+    for (std::size_t i = 0; i < scheme_.initial_components().size(); ++i) {
+      const InitialSolver::Preconditioned p =
+          system.solver(static_cast<int>(i)).precondition_transposed(component(i, z));
+      spread(i, p.solution, out.forces);
+      spread(i, p.product, out.product);
     }
     return out;
   }
@@ -67,6 +72,17 @@ class Adjoint {
 
  private:
   Columns::BlockXpr stage(Columns& z, int a) const { return z.block(a * n_, 0, n_, z.cols()); }
+  Eigen::MatrixXcd component(std::size_t i, const Columns& z) const {
+    const InitialComponent& c = scheme_.initial_components()[i];
+    Eigen::MatrixXcd out = combine(c.left.real(), z).cast<Complex>();
+    out.imag() = combine(c.left.imag(), z);
+    return out;
+  }
+  void spread(std::size_t i, const Eigen::MatrixXcd& product, Columns& out) const {
+    const InitialComponent& c = scheme_.initial_components()[i];
+    for (int b = 0; b < scheme_.stages(); ++b)
+      stage(out, b) += c.multiplicity() * (c.right[b] * product).real();
+  }
   Columns combine(const StageVector& factors, const Columns& z) const {
     Columns out = factors[0] * z.topRows(n_);
     for (int a = 1; a < scheme_.stages(); ++a) out += factors[a] * z.middleRows(a * n_, n_);
@@ -90,8 +106,8 @@ class Adjoint {
   Eigen::Index n_;
 };
 
-/// H_0^{-1} [D Q](0): displacement stages by acceleration stages, (3N s) x (6 s).
-Columns body_response(const BodyModel& model, const ElasticSystem& system) {
+/// [D Q](0): right-hand side stages by acceleration stages, (3N s) x (6 s).
+Columns body_force(const BodyModel& model) {
   const Scheme& scheme = model.discretisation.scheme;
   const auto n = static_cast<Eigen::Index>(3 * model.nodes());
   const int stages = scheme.stages();
@@ -99,21 +115,18 @@ Columns body_response(const BodyModel& model, const ElasticSystem& system) {
   for (std::size_t i = 0; i < model.body_force.size(); ++i)
     sums[i % sums.size()] += model.body_force[i];
   Columns out = Columns::Zero(n * stages, 6 * stages);
-  for (std::size_t i = 0; i < scheme.initial_components().size(); ++i) {
-    const InitialComponent& c = scheme.initial_components()[i];
+  for (int a = 0; a < stages; ++a)
     for (int b = 0; b < stages; ++b) {
-      Eigen::MatrixXcd forces = c.right[b] * model.initial_body_force[i];
+      auto block = out.block(a * n, 6 * b, n, 6);
       for (std::size_t m = 0; m < sums.size(); ++m) {
-        const LagComponent& lag = scheme.lag_components()[m];
-        const Complex factor =
-            (c.right.transpose() * lag.left.cast<Complex>()).value() * lag.right[b];
-        forces += factor * sums[m];
+        const LagComponent& c = scheme.lag_components()[m];
+        block += c.left[a] * c.right[b] * sums[m];
       }
-      const Eigen::MatrixXcd response = system.apply_inverse(static_cast<int>(i), forces);
-      for (int a = 0; a < stages; ++a)
-        out.block(a * n, 6 * b, n, 6) += c.multiplicity() * (c.left[a] * response).real();
+      for (std::size_t i = 0; i < scheme.initial_components().size(); ++i) {
+        const InitialComponent& c = scheme.initial_components()[i];
+        block += c.multiplicity() * (c.left[a] * c.right[b] * model.initial_body_force[i]).real();
+      }
     }
-  }
   return out;
 }
 
@@ -136,18 +149,17 @@ void compute_balance(BodyModel& model) {
   const Adjoint adjoint(model);
   const auto sums = sum_lags(model, *model.h);
   const Columns rigid = orthonormal_rigid(system.projection().rigid());
-  Columns response = body_response(model, system);
-  const Eigen::VectorXd scales = response.colwise().norm();
-  response = response * scales.cwiseInverse().asDiagonal();
-
-  // unknowns: the adjoint of u, then that of the condition Pi u = 0, stage by stage
+  Columns body = body_force(model);
+  const Eigen::VectorXd scales = body.colwise().norm();
+  body = body * scales.cwiseInverse().asDiagonal();
+  // unknowns: H_0^T times the adjoint of u (about), then that of the condition Pi u = 0, stage by stage
   const auto apply = [&](const Columns& x) {
-    const Columns z = x.topRows(n * stages);
+    const auto [forces, product] = adjoint.precondition(system, x.topRows(n * stages));
     Columns out(x.rows(), x.cols());
-    out.topRows(n * stages) = z + adjoint.lags(*sums, adjoint.initial(model.inverse, z));
+    out.topRows(n * stages) = product + adjoint.lags(*sums, forces);
     for (int a = 0; a < stages; ++a)
       out.middleRows(a * n, n) += rigid * x.middleRows(n * stages + 6 * a, 6);
-    out.bottomRows(6 * stages) = -response.transpose() * z;
+    out.bottomRows(6 * stages) = -body.transpose() * forces;
     return out;
   };
   // the functional that is wanted: the mean over a step of the accelerations at the stages
@@ -166,12 +178,13 @@ void compute_balance(BodyModel& model) {
                 "the static balance of the body cannot be computed: its matrices are too "
                 "inaccurate; use a smaller --codec-tol or --quadrature-tol");
   const Columns z = solution.topRows(n * stages) * sizes.asDiagonal();
-  const Columns forces = adjoint.initial(model.inverse, z);
+  const Columns forces = adjoint.precondition(system, z).forces;
   model.balance = adjoint.stage_sum(forces).transpose();
   if (!model.g) return;
   const auto traction_sums = sum_lags(model, *model.g);
-  const Columns tractions =
-      adjoint.initial(model.traction_response, z) + adjoint.lags(*traction_sums, forces);
+  const Columns initial = model.is_iterative() ? adjoint.initial(model.initial_g, forces)
+                                               : adjoint.initial(model.traction_response, z);
+  const Columns tractions = initial + adjoint.lags(*traction_sums, forces);
   model.traction_balance = adjoint.stage_sum(tractions).transpose();
 }
 

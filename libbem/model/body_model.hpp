@@ -15,17 +15,26 @@ struct ModelReport {
   double lam = 0;                ///< extent/(c2 dt)
   double row_sum_residual = 0;   ///< largest row sum that the translation identity had to repair
   double rotation_residual = 0;  ///< of H_0 W = -s^2 Q_0, relative to |H_0| (M42)
-  double condition = 0;          ///< |H_0|_1 |H_0^{-1}|_1
+  double condition = 0;          ///< |H_0|_1 |H_0^{-1}|_1; 0 if there is no inverse
   double growth = 0;             ///< largest growth factor per step of the free body, window 1
   /// What the codec has changed, relative Frobenius norms over all matrices of a kind.
   struct CodecErrors {
-    double h = 0, g = 0, inverse = 0, traction_response = 0;
+    double h = 0, g = 0, inverse = 0, traction_response = 0, initial_h = 0, initial_g = 0;
   } codec_errors;
 };
 
 enum class ModelKind {
   dynamic,  ///< elastodynamic matrices
   rigid     ///< geometry and mass alone
+};
+
+/// Where surface loads, contacts and joints may act on a body.
+enum class Loads { all, some, none };
+
+/// How a step solves with the matrices of lag 0.
+enum class InverseKind {
+  dense,     ///< with the stored inverse, from a dense factorisation
+  iterative  ///< with H_0 itself
 };
 
 /// Everything that is precomputed for one body. Lag matrices are numbered as in LaneLayout and
@@ -36,21 +45,26 @@ struct BodyModel {
   ModelKind kind = ModelKind::dynamic;
   BodyGeometry geometry;
   Discretisation discretisation;
+  Loads loads = Loads::all;
+  std::vector<int> loaded_nodes;  ///< of Loads::some: which, ascending; others' columns are zero but for rounding
   double window = 1;  ///< factor per lag on all weights, see docs/method.md
   Codec codec = Codec::none;
   Precision precision = Precision::float32;  ///< of uncompressed matrices
 
-  std::unique_ptr<MatrixFamily> h, g;                  ///< 3N x 3N, lags >= 1
+  std::unique_ptr<MatrixFamily> h, g;                ///< 3N x 3N, lags >= 1; no g: Loads::none
   std::vector<Eigen::MatrixXd> body_force;             ///< [D_k Q_k], 3N x 6, lags >= 1
   std::vector<Eigen::MatrixXcd> initial_body_force;    ///< [D_0 Q_0] by initial component, 3N x 6
-  std::vector<std::unique_ptr<MatrixFamily>> inverse;  ///< H_0^{-1}
-  std::vector<std::unique_ptr<MatrixFamily>> traction_response;  ///< H_0^{-1} G_0
+  /// Either H_0^{-1} and H_0^{-1} G_0, or H_0 and G_0, which are solved with in every step; the
+  /// others are empty.
+  std::vector<std::unique_ptr<MatrixFamily>> inverse, traction_response;
+  std::vector<std::unique_ptr<MatrixFamily>> initial_h, initial_g;
   /// The static equation H(0) u = b + D(0) a' + Q(0) alpha can be solved for u only with the
   /// accelerations (a', alpha) = balance * b: the discrete form of force = mass x acceleration.
   Eigen::MatrixXd balance;           ///< 6 x 3N
   Eigen::MatrixXd traction_balance;  ///< balance * G(0): 6 x 3N, by nodal tractions
   ModelReport report;
 
+  bool is_iterative() const { return !initial_h.empty(); }
   std::size_t nodes() const { return geometry.nodes.vertices.size(); }
   int components() const { return static_cast<int>(discretisation.scheme.lag_components().size()); }
   int lag_index(int lag, int component) const { return (lag - 1) * components() + component; }

@@ -35,8 +35,10 @@ ElasticSystem::ElasticSystem(const BodyModel& model, double window)
     : model_(model), window_(window), scheme_(model.discretisation.scheme.windowed(window)) {
   const int initial = static_cast<int>(scheme().initial_components().size());
   std::vector<Eigen::MatrixXcd> response;
-  for (int i = 0; i < initial; ++i)
-    response.push_back(apply_inverse(i, model.initial_body_force[i]));
+  for (int i = 0; i < initial; ++i) {
+    solvers_.push_back(make_initial_solver(model, i));
+    response.push_back(solvers_.back()->solve(model.initial_body_force[i]));
+  }
   projection_ = RigidProjection(rigid_part(model.geometry.nodes), std::move(response));
   body_force_.lags = model.body_force;
 }
@@ -77,45 +79,33 @@ void ElasticSystem::add_input_history(const InputColumns& columns, const LagHist
   }
 }
 
-namespace {
-
-/// A family of real and imaginary part, or of a real part alone, times complex vectors.
-Eigen::MatrixXcd multiply_complex(const MatrixFamily& family, const Eigen::MatrixXcd& v) {
-  const Eigen::Index n = v.rows(), count = v.cols();
-  const auto coefficients = static_cast<Eigen::Index>(family.coefficients());
-  Eigen::MatrixXd inputs(n, 2 * count), outputs = Eigen::MatrixXd::Zero(n, 2 * count);
-  inputs << v.real(), v.imag();
-  Eigen::MatrixXf analysed(coefficients, 2 * count);
-  std::vector<FamilyTerm> terms;
-  std::vector<double*> out;
-  const bool complex = family.count() > 1;
-  for (Eigen::Index c = 0; c < 2 * count; ++c) {
-    out.push_back(outputs.col(c).data());
-    const bool imaginary = c >= count;
-    if (imaginary && !complex && inputs.col(c).isZero(0)) continue;
-    family.analyse(inputs.col(c).data(), analysed.col(c).data());
-    const int real_output = static_cast<int>(c);
-    terms.push_back({0, inputs.col(c).data(), analysed.col(c).data(), real_output, 1});
-    if (complex)
-      terms.push_back({1, inputs.col(c).data(), analysed.col(c).data(),
-                       static_cast<int>(imaginary ? c - count : c + count),
-                       imaginary ? -1.0 : 1.0});
-  }
-  family.multiply_add(terms, out);
-  Eigen::MatrixXcd product(n, count);
-  product.real() = outputs.leftCols(count);
-  product.imag() = outputs.rightCols(count);
-  return product;
+Eigen::VectorXcd SolutionMemory::guess(int component, const Eigen::VectorXcd& b) const {
+  Eigen::VectorXcd u = Eigen::VectorXcd::Zero(b.size());
+  if (component < static_cast<int>(pairs_.size()))
+    for (const Pair& p : pairs_[component]) u += p.b.dot(b) * p.u;
+  return u;
 }
 
-}  // namespace
-
-Eigen::MatrixXcd ElasticSystem::apply_inverse(int component, const Eigen::MatrixXcd& v) const {
-  return multiply_complex(*model_.inverse[component], v);
+void SolutionMemory::add(int component, Eigen::VectorXcd u, Eigen::VectorXcd b) {
+  constexpr std::size_t kMost = 40;
+  constexpr double kNew = 1e-4;  // of b: less is known already
+  if (component >= static_cast<int>(pairs_.size())) pairs_.resize(component + 1);
+  std::deque<Pair>& pairs = pairs_[component];
+  const double size = b.norm();
+  for (const Pair& p : pairs) {
+    const Complex part = p.b.dot(b);
+    b -= part * p.b;
+    u -= part * p.u;
+  }
+  const double rest = b.norm();
+  if (!(rest > kNew * size)) return;
+  if (pairs.size() == kMost) pairs.pop_front();
+  pairs.push_back({u / rest, b / rest});
 }
 
 std::vector<SpectralState> ElasticSystem::solve(
-    const std::vector<Eigen::MatrixXd>& component_sums) const {
+    const std::vector<Eigen::MatrixXd>& component_sums,
+    const std::vector<SolutionMemory*>& memories) const {
   const auto bodies = static_cast<Eigen::Index>(component_sums.size());
   std::vector<Eigen::MatrixXd> stage_sums;
   for (const Eigen::MatrixXd& sums : component_sums) {
@@ -129,8 +119,14 @@ std::vector<SpectralState> ElasticSystem::solve(
     Eigen::MatrixXcd loads(stage_sums[0].rows(), bodies);
     for (Eigen::Index b = 0; b < bodies; ++b)
       loads.col(b) = stage_sums[b].cast<Complex>() * c.right;
-    Eigen::MatrixXcd u = apply_inverse(static_cast<int>(i), loads);
-    const Eigen::MatrixXcd z = projection_.project(static_cast<int>(i), u);
+    const int component = static_cast<int>(i);
+    Eigen::MatrixXcd guess(loads.rows(), static_cast<Eigen::Index>(memories.size()));
+    for (Eigen::Index b = 0; b < guess.cols(); ++b)
+      guess.col(b) = memories[b]->guess(component, loads.col(b));
+    Eigen::MatrixXcd u = solvers_[i]->solve(loads, guess);
+    for (Eigen::Index b = 0; b < guess.cols(); ++b)
+      memories[b]->add(component, u.col(b), loads.col(b));
+    const Eigen::MatrixXcd z = projection_.project(component, u);
     for (Eigen::Index b = 0; b < bodies; ++b) {
       states[b].displacement.push_back(u.col(b));
       states[b].acceleration.push_back(z.col(b));
@@ -175,7 +171,7 @@ InputColumns ElasticSystem::make_columns(std::vector<Eigen::MatrixXd> lags,
       model_.balance * static_columns(unwindowed, layout, initial, lags);
   columns.lags = std::move(lags);
   for (std::size_t i = 0; i < initial.size(); ++i) {
-    Eigen::MatrixXcd u = apply_inverse(static_cast<int>(i), initial[i]);
+    Eigen::MatrixXcd u = solvers_[i]->solve(initial[i]);
     columns.acceleration.push_back(projection_.project(static_cast<int>(i), u));
     columns.displacement.push_back(std::move(u));
   }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "model/initial_solver.hpp"
 #include "model/rigid_projection.hpp"
 
 #include <cmath>
+#include <deque>
 
 namespace bem {
 
@@ -60,6 +62,21 @@ struct SpectralState {
   std::vector<Eigen::VectorXcd> acceleration;  ///< z, 6
 };
 
+/// Solutions H_0 u = b of the last steps of a body, by initial component: an iterative solution
+/// starts from what they make of its right-hand side.
+class SolutionMemory {
+ public:
+  /// The combination of known solutions whose right-hand side is nearest to b.
+  Eigen::VectorXcd guess(int component, const Eigen::VectorXcd& b) const;
+  void add(int component, Eigen::VectorXcd u, Eigen::VectorXcd b);
+
+ private:
+  struct Pair {
+    Eigen::VectorXcd u, b;  ///< the b of a component are orthonormal
+  };
+  std::vector<std::deque<Pair>> pairs_;  ///< [component], oldest first
+};
+
 /// The linear part of a time step: products with the history, solution at lag 0, removal of rigid
 /// motion. Refers to a model; holds no state of a motion.
 class ElasticSystem {
@@ -78,8 +95,9 @@ class ElasticSystem {
                          Eigen::MatrixXd& component_sums) const;
 
   /// Displacements without rigid part for the history right-hand sides of several bodies. Reads
-  /// H_0^{-1} once for all of them.
-  std::vector<SpectralState> solve(const std::vector<Eigen::MatrixXd>& component_sums) const;
+  /// H_0^{-1} once for all of them. `memories` of the bodies help an iterative solution.
+  std::vector<SpectralState> solve(const std::vector<Eigen::MatrixXd>& component_sums,
+                                   const std::vector<SolutionMemory*>& memories = {}) const;
 
   /// Adds the effect of inputs at the current step (inputs x s stage values).
   void add_inputs(const InputColumns& columns, const Eigen::MatrixXd& stages,
@@ -109,8 +127,8 @@ class ElasticSystem {
   InputColumns make_columns(std::vector<Eigen::MatrixXd> lags,
                             const std::vector<Eigen::MatrixXcd>& initial) const;
 
-  /// H_0^{-1} v by initial component.
-  Eigen::MatrixXcd apply_inverse(int component, const Eigen::MatrixXcd& v) const;
+  /// Solves with H_0 of an initial component.
+  const InitialSolver& solver(int component) const { return *solvers_[component]; }
 
  private:
   Eigen::MatrixXd stages(const std::vector<Eigen::VectorXcd>& spectral) const;
@@ -118,6 +136,7 @@ class ElasticSystem {
   const BodyModel& model_;
   double window_;
   Scheme scheme_;
+  std::vector<std::unique_ptr<InitialSolver>> solvers_;
   RigidProjection projection_;
   InputColumns body_force_;
 };

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/SVD>
+
 namespace bem {
 namespace {
 
@@ -110,15 +112,64 @@ double squared_norm(const std::vector<FloatMatrix>& matrices) {
   return sum;
 }
 
-/// Frobenius norm of H_0^{-1} G_0, estimated from some of its rows.
+int nearest_node(const std::vector<Vec3>& nodes, int node) {
+  int nearest = node == 0 ? 1 : 0;
+  for (int j = 0; j < static_cast<int>(nodes.size()); ++j)
+    if (j != node && (nodes[j] - nodes[node]).norm() < (nodes[nearest] - nodes[node]).norm())
+      nearest = j;
+  return nearest;
+}
+
+/// Frobenius norm that the errors of H_0^{-1} G_0 are measured by, estimated from some of its rows:
+/// its own, but at most kMostOfPairs times what neighbouring nodes would make of it that are pushed
+/// against each other. In a thin body, whose faces are close, that is tiny beside the bending, and
+/// constraints on both faces need it to stay positive.
 template <class T>
-double response_norm(const DenseMatrix<T>& inverse, const LowRankFamily& g) {
-  constexpr Eigen::Index kSamples = 48;
-  const Eigen::Index n = inverse.rows(), samples = std::min(n, kSamples);
-  DenseMatrix<T> rows(samples, n);
-  for (Eigen::Index i = 0; i < samples; ++i) rows.row(i) = inverse.row(i * n / samples);
-  return std::sqrt(squared_norm(times(parts(rows, 0, samples), g)) * static_cast<double>(n) /
-                   static_cast<double>(samples));
+double response_scale(const BodyModel& model, const DenseMatrix<T>& inverse,
+                      const LowRankFamily& g) {
+  constexpr double kMostOfPairs = 100;
+  constexpr int kSamples = 24;
+  const std::vector<Vec3>& x = model.geometry.nodes.vertices;
+  const int n = static_cast<int>(x.size()), samples = std::min(n, kSamples);
+  DenseMatrix<T> rows(6 * samples, inverse.cols());
+  std::vector<int> nodes;
+  for (int i = 0; i < samples; ++i) {
+    nodes.push_back(static_cast<int>(static_cast<long>(i) * n / samples));
+    nodes.push_back(nearest_node(x, nodes.back()));
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    rows.middleRows(static_cast<Eigen::Index>(3 * i), 3) = inverse.middleRows(3 * nodes[i], 3);
+  const std::vector<FloatMatrix> response = times(parts(rows, 0, rows.rows()), g);
+  std::vector<double> pairs;
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    Eigen::Matrix<Complex, 6, 6> pair = Eigen::Matrix<Complex, 6, 6>::Zero();
+    for (int c = 0; c < 2; ++c)
+      for (std::size_t part = 0; part < response.size(); ++part)
+        pair.middleCols<3>(3 * c) +=
+            (part == 0 ? Complex(1) : Complex(0, 1)) *
+            response[part].block<6, 3>(6 * i, 3 * nodes[2 * i + c]).cast<Complex>();
+    pairs.push_back(Eigen::JacobiSVD<Eigen::MatrixXcd>(pair).singularValues()[5]);
+  }
+  const auto middle = pairs.begin() + samples / 2;
+  std::nth_element(pairs.begin(), middle, pairs.end());
+  const double per_row = squared_norm(response) / static_cast<double>(rows.rows());
+  return std::sqrt(static_cast<double>(inverse.rows())) *
+         std::min(std::sqrt(per_row), kMostOfPairs * *middle);
+}
+
+/// Frobenius norm that the errors of the inverse are measured by: its own, but at most a few times
+/// what it would be if all nodes acted on themselves alone. The inverse of a thin body is dominated
+/// by its bending, and errors that are small beside that would ruin what single nodes do.
+template <class T>
+double inverse_scale(const DenseMatrix<T>& inverse) {
+  constexpr double kMostOfOwn = 10;
+  std::vector<double> own;
+  for (Eigen::Index i = 0; i < inverse.rows(); i += 3)
+    own.push_back(inverse.template block<3, 3>(i, i).squaredNorm());
+  std::nth_element(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(own.size() / 2),
+                   own.end());
+  const double nodes = static_cast<double>(own.size());
+  return std::min(inverse.norm(), kMostOfOwn * std::sqrt(nodes * own[own.size() / 2]));
 }
 
 template <class T>
@@ -135,11 +186,11 @@ void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, const LowRankFamily
     return LowRankBuilder(partition, static_cast<int>(rows.size()),
                           LowRankBuilder::choose_quantum(middle, views(rows), tolerance * norm));
   };
-  LowRankBuilder inverse_builder = builder(sample, inverse.norm());
+  LowRankBuilder inverse_builder = builder(sample, inverse_scale(inverse));
   std::unique_ptr<LowRankBuilder> response_builder;
   if (g)
-    response_builder =
-        std::make_unique<LowRankBuilder>(builder(times(sample, *g), response_norm(inverse, *g)));
+    response_builder = std::make_unique<LowRankBuilder>(
+        builder(times(sample, *g), response_scale(model, inverse, *g)));
   for (const Slab& slab : partition) {
     if (progress)
       progress("compressing the inverse", 3 * slab.row_begin / static_cast<double>(inverse.rows()));

@@ -35,7 +35,8 @@ std::vector<int> unknowns_of(const std::vector<int>& nodes) {
 }
 
 TractionData extract_tractions(const BodyModel& model, const std::vector<int>& nodes) {
-  require(model.g && !model.traction_response.empty(), "traction matrices are in memory");
+  const auto& initial = model.is_iterative() ? model.initial_g : model.traction_response;
+  require(model.g && !initial.empty(), "traction matrices are in memory");
   const std::vector<int> columns = unknowns_of(nodes);
   const auto pick = [&](const MatrixFamily& family) -> std::shared_ptr<const MatrixFamily> {
     if (dynamic_cast<const DenseFamily<float>*>(&family))
@@ -47,7 +48,7 @@ TractionData extract_tractions(const BodyModel& model, const std::vector<int>& n
   TractionData data;
   data.nodes = nodes;
   data.lags = pick(*model.g);
-  for (const auto& m : model.traction_response) data.response.push_back(pick(*m));
+  for (const auto& m : initial) data.initial.push_back(pick(*m));
   return data;
 }
 
@@ -66,31 +67,22 @@ void NodalHistory::push(const NodalLoad& load) {
 }
 
 NodalTractions::NodalTractions(const ElasticSystem& system, TractionData data)
-    : system_(system), data_(std::move(data)) {
-  // z of all columns at once: the projection's functional times the matrix
+    : system_(system), lags_(std::move(data.lags)) {
   const RigidProjection& projection = system.projection();
-  const Eigen::MatrixXd functional = projection.rigid().transpose();
-  for (std::size_t c = 0; c < data_.response.size(); ++c) {
-    const MatrixFamily& m = *data_.response[c];
-    Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(m.columns()),
-                                                  functional.cols() * m.count());
-    std::vector<FamilyTerm> terms;
-    std::vector<double*> outputs;
-    for (int k = 0; k < m.count(); ++k)
-      for (Eigen::Index i = 0; i < functional.cols(); ++i) {
-        terms.push_back({k, functional.col(i).data(), nullptr, static_cast<int>(outputs.size())});
-        outputs.push_back(rigid.col(static_cast<Eigen::Index>(outputs.size())).data());
-      }
-    m.multiply_transposed_add(terms, outputs);
-    Eigen::MatrixXcd moved = rigid.leftCols(6).transpose().cast<Complex>();
-    if (m.count() > 1) moved.imag() = rigid.rightCols(6).transpose();
-    acceleration_.push_back(projection.accelerations_of_rigid(static_cast<int>(c), moved));
+  const Eigen::MatrixXcd functional = projection.rigid().transpose().cast<Complex>();
+  for (std::size_t c = 0; c < data.initial.size(); ++c) {
+    const InitialSolver& solver = system.solver(static_cast<int>(c));
+    response_.push_back(solver.is_iterative() ? solved_response(std::move(data.initial[c]), solver)
+                                              : stored_response(std::move(data.initial[c])));
+    // z of all columns at once: the projection's functional times the matrix
+    acceleration_.push_back(projection.accelerations_of_rigid(
+        static_cast<int>(c), response_.back()->multiply_transposed(functional).transpose()));
   }
 }
 
 std::size_t NodalTractions::bytes() const {
-  std::size_t sum = data_.lags->bytes();
-  for (const auto& m : data_.response) sum += m->bytes();
+  std::size_t sum = lags_->bytes();
+  for (const auto& m : response_) sum += m->bytes();
   return sum;
 }
 
@@ -107,29 +99,17 @@ void NodalTractions::add_history(const NodalHistory& history,
       terms.push_back({system_.model().lag_index(k, m), &lag.columns, lag.inputs.col(m).data(), m,
                        history.factor(k)});
   }
-  data_.lags->multiply_add(terms, outputs);
+  lags_->multiply_add(terms, outputs);
 }
 
 void NodalTractions::add(const NodalLoad& load, SpectralState& state) const {
   if (load.nodes.empty()) return;
   const std::vector<int> columns = unknowns_of(load.nodes);
   const auto& initial = system_.scheme().initial_components();
-  const Eigen::Index n = state.displacement[0].size();
   for (std::size_t c = 0; c < initial.size(); ++c) {
     const Eigen::VectorXcd values = load.stages.cast<Complex>() * initial[c].right;
-    const Eigen::VectorXd real = values.real(), imaginary = values.imag();
-    const MatrixFamily& m = *data_.response[c];
-    Eigen::VectorXd u_real = Eigen::VectorXd::Zero(n), u_imaginary = Eigen::VectorXd::Zero(n);
-    std::vector<SparseTerm> terms = {{0, &columns, real.data(), 0}};
-    if (m.count() > 1) {
-      terms.push_back({0, &columns, imaginary.data(), 1});
-      terms.push_back({1, &columns, imaginary.data(), 0, -1.0});
-      terms.push_back({1, &columns, real.data(), 1});
-    }
-    m.multiply_add(terms, {u_real.data(), u_imaginary.data()});
     const Eigen::VectorXcd z = acceleration_[c](Eigen::all, columns) * values;
-    state.displacement[c].real() += u_real;
-    state.displacement[c].imag() += u_imaginary;
+    state.displacement[c] += response_[c]->multiply(columns, values);
     state.displacement[c] -= system_.projection().response(static_cast<int>(c)) * z;
     state.acceleration[c] += z;
   }
@@ -143,9 +123,7 @@ void NodalTractions::subtract_balance(const NodalLoad& load, Eigen::MatrixXd& ac
 Eigen::MatrixXcd NodalTractions::response(int component, const std::vector<int>& rows,
                                           const std::vector<int>& loaded) const {
   const std::vector<int> row_unknowns = unknowns_of(rows), columns = unknowns_of(loaded);
-  const MatrixFamily& m = *data_.response[component];
-  Eigen::MatrixXcd out = m.block(0, row_unknowns, columns).cast<Complex>();
-  if (m.count() > 1) out.imag() = m.block(1, row_unknowns, columns);
+  Eigen::MatrixXcd out = response_[component]->block(row_unknowns, columns);
   out.noalias() -= system_.projection().response(component)(row_unknowns, Eigen::all) *
                    acceleration_[component](Eigen::all, columns);
   return out;

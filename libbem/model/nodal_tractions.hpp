@@ -1,14 +1,15 @@
 #pragma once
 
 #include "model/elastic_system.hpp"
+#include "model/traction_response.hpp"
 
 namespace bem {
 
 /// The traction matrices, or those of their columns that belong to some nodes.
 struct TractionData {
-  std::vector<int> nodes;                                     ///< ascending
-  std::shared_ptr<const MatrixFamily> lags;                   ///< G_k, lag >= 1
-  std::vector<std::shared_ptr<const MatrixFamily>> response;  ///< H_0^{-1} G_0
+  std::vector<int> nodes;                                    ///< ascending
+  std::shared_ptr<const MatrixFamily> lags;                  ///< G_k, lag >= 1
+  std::vector<std::shared_ptr<const MatrixFamily>> initial;  ///< H_0^{-1} G_0, iterative: G_0
 };
 
 /// Columns of a model whose traction matrices are in memory. Compressed ones are not copied: the
@@ -72,7 +73,8 @@ class NodalTractions {
 
  private:
   const ElasticSystem& system_;
-  TractionData data_;
+  std::shared_ptr<const MatrixFamily> lags_;
+  std::vector<std::unique_ptr<TractionResponse>> response_;
   std::vector<Eigen::MatrixXcd> acceleration_;  ///< z, 6 x 3N, by initial component
 };
 

@@ -10,22 +10,18 @@ struct PrecomputeOptions {
   Discretisation discretisation;
   Precision precision = Precision::float32;  ///< of uncompressed matrices
   CodecOptions codec;
-  bool tractions = true;  ///< also what loads and contact need: G and H_0^{-1} G_0
-  double window = 0;      ///< 0: the weakest that keeps the measured growth at or below 1
+  InverseKind inverse = InverseKind::dense;
+  Loads loads = Loads::all;       ///< what is kept of G and H_0^{-1} G_0
+  std::vector<int> loaded_nodes;  ///< of Loads::some, ascending; needs a codec
+  double window = 0;              ///< 0: the weakest that keeps the measured growth at or below 1
   bool measure_growth = true;
 };
 
 /// Computes all matrices of a body. Bit-identical for any number of threads. Throws
 /// ErrorCode::numerical if the automatic window would leave less than a hundredth of a motion after
 /// the time that a shear wave takes across the body.
-/// Cost: assembly O(N^2), inversion O(N^3); memory as precompute_memory().
+/// Cost: assembly O(N^2), inversion O(N^3); memory: model/memory_estimate.hpp.
 BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
                      const Progress& progress = nullptr);
-
-/// Bytes of the stored matrices, and of the largest working set of precompute().
-struct MemoryEstimate {
-  double stored = 0, peak = 0;
-};
-MemoryEstimate precompute_memory(std::size_t nodes, const PrecomputeOptions& options);
 
 }  // namespace bem

@@ -20,12 +20,14 @@ void resize(std::vector<Matrix>& matrices, int count, Eigen::Index rows, Eigen::
 }  // namespace
 
 template <class T>
-SlabAssembler<T>::SlabAssembler(BodyModel& model, AssemblyPrecision precision, bool tractions)
+SlabAssembler<T>::SlabAssembler(BodyModel& model, AssemblyPrecision precision)
     : model_(model),
       precision_(precision),
-      tractions_(tractions),
+      loaded_(model.loads == Loads::none ? 0 : model.nodes(), model.loads == Loads::all),
       assembler_(model.geometry.nodes, model.geometry.extent, model.discretisation),
       layout_(assembler_.layout()) {
+  if (model.loads == Loads::some)
+    for (int node : model.loaded_nodes) loaded_[node] = 1;
   const auto n = static_cast<Eigen::Index>(3 * model.nodes());
   const std::size_t components = model.discretisation.scheme.initial_components().size();
   model_.body_force.assign(lag_count(), Eigen::MatrixXd(n, 6));
@@ -39,13 +41,28 @@ void SlabAssembler<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
   slab.first = first;
   slab.last = last;
   resize(slab.h, lag_count(), rows, columns);
-  resize(slab.g, tractions_ ? lag_count() : 0, rows, columns);
+  const bool tractions = !loaded_.empty();
+  resize(slab.g, tractions ? lag_count() : 0, rows, columns);
   resize(slab.initial_h, initial_count(), rows, columns);
-  resize(slab.initial_g, tractions_ ? initial_count() : 0, rows, columns);
+  resize(slab.initial_g, tractions ? initial_count() : 0, rows, columns);
+  if (model_.loads == Loads::some) {
+    clear_columns(slab.g);
+    clear_columns(slab.initial_g);
+  }
   if (precision_ == AssemblyPrecision::single)
     assemble_tiles<float>(first, last, slab);
   else
     assemble_tiles<double>(first, last, slab);
+}
+
+/// Those of nodes without loads.
+template <class T>
+template <class Matrix>
+void SlabAssembler<T>::clear_columns(std::vector<Matrix>& matrices) const {
+  parallel_for(matrices.size(), [&](std::size_t k) {
+    for (std::size_t node = 0; node < loaded_.size(); ++node)
+      if (!loaded_[node]) matrices[k].middleCols(static_cast<Eigen::Index>(3 * node), 3).setZero();
+  });
 }
 
 template <class T>
@@ -95,7 +112,7 @@ void SlabAssembler<T>::distribute(int first, const std::vector<BlockRow<S>>& row
           g[3 * v + r] = rows[v].g_block(j) + kSymmetric[3 * r + c] * rows[v].padded_lanes;
         }
       write(h, 3 * j + c, slab.initial_h, slab.h);
-      if (tractions_) write(g, 3 * j + c, slab.initial_g, slab.g);
+      if (is_loaded(j)) write(g, 3 * j + c, slab.initial_g, slab.g);
     }
 }
 
@@ -139,7 +156,7 @@ typename SlabAssembler<T>::Norms SlabAssembler<T>::estimate_norms() const {
           const double h = row.h_block(j)[e * row.padded_lanes + lane];
           const double g = row.g_block(j)[kSymmetric[e] * row.padded_lanes + lane];
           (initial ? parts[i].initial_h : parts[i].h) += h * h;
-          (initial ? parts[i].initial_g : parts[i].g) += g * g;
+          if (is_loaded(j)) (initial ? parts[i].initial_g : parts[i].g) += g * g;
         }
       }
   });

@@ -31,8 +31,8 @@ template <class T>
 class SlabAssembler {
  public:
   /// Sizes the small matrices of the model (body forces), which the slabs fill. The model's
-  /// geometry and discretisation must be set; it must outlive this.
-  SlabAssembler(BodyModel& model, AssemblyPrecision precision, bool tractions);
+  /// geometry, discretisation and loads must be set; it must outlive this.
+  SlabAssembler(BodyModel& model, AssemblyPrecision precision);
 
   /// Rows of nodes [first, last); uses all worker threads.
   void assemble(int first, int last, MatrixSlab<T>& slab);
@@ -49,6 +49,9 @@ class SlabAssembler {
   double row_sum_residual() const { return residual_; }
 
  private:
+  bool is_loaded(int node) const { return !loaded_.empty() && loaded_[node] != 0; }
+  template <class Matrix>
+  void clear_columns(std::vector<Matrix>& matrices) const;
   template <class S>
   void assemble_tiles(int first, int last, MatrixSlab<T>& slab);
   template <class S>
@@ -59,7 +62,7 @@ class SlabAssembler {
 
   BodyModel& model_;
   AssemblyPrecision precision_;
-  bool tractions_;
+  std::vector<char> loaded_;  ///< by node: whether G has its columns; empty if there is no G
   RowAssembler assembler_;
   LaneLayout layout_;
   double residual_ = 0;

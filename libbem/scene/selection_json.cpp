@@ -1,3 +1,5 @@
+#include "scene/selection_json.hpp"
+
 #include "scene/scene_parts.hpp"
 
 #include <limits>
@@ -57,6 +59,14 @@ Selection read_selection(const JsonValue& value) {
   }
   reader.finish();
   return selection;
+}
+
+std::vector<Selection> read_selections(const std::string& path) {
+  const JsonDocument document = JsonDocument::read(path);
+  std::vector<Selection> selections;
+  for (const JsonValue& item : JsonValue(document, 0).items(1, "array of selections"))
+    selections.push_back(read_selection(item));
+  return selections;
 }
 
 }  // namespace bem

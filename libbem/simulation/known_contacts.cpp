@@ -1,6 +1,7 @@
 #include "simulation/known_contacts.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 namespace bem {
@@ -9,6 +10,12 @@ namespace {
 /// What touches, whatever it touches of the other surface.
 ContactKey mover(ContactKey key) {
   key.feature_b = -1;
+  key.view = 0;
+  return key;
+}
+
+ContactKey last_view(ContactKey key) {
+  key.view = std::numeric_limits<int>::max();
   return key;
 }
 
@@ -18,25 +25,14 @@ bool leaves(const Contact& old, const Contact& now) {
   return old.normal.dot(now.point - old.point) <= 0;
 }
 
-/// A contact half way between two views of the same.
-ContactPair halfway(const ContactPair& old, ContactPair now) {
-  const auto mix = [](SurfacePoint& to, const SurfacePoint& from) {
-    for (std::size_t i = 0; i < to.weights.size(); ++i)
-      to.weights[i] = 0.5 * (to.weights[i] + from.weights[i]);
-  };
-  Contact& c = now.contact;
-  mix(c.a, old.contact.a);
-  mix(c.b, old.contact.b);
-  c.normal = (c.normal + old.contact.normal).normalized();
-  c.point = 0.5 * (c.point + old.contact.point);
-  c.offset_start = 0.5 * (c.offset_start + old.contact.offset_start);
-  c.gap_start = c.normal.dot(c.offset_start);
-  now.obstacle_a = 0.5 * (now.obstacle_a + old.obstacle_a);
-  now.obstacle_b = 0.5 * (now.obstacle_b + old.obstacle_b);
-  return now;
-}
-
 }  // namespace
+
+void KnownContacts::clear() {
+  known_.clear();
+  replaced_.clear();
+  views_.clear();
+  pairs_.clear();
+}
 
 KnownContacts::Finding KnownContacts::judge(const std::vector<ContactPair>& found,
                                             double least_gap) {
@@ -49,12 +45,13 @@ KnownContacts::Finding KnownContacts::judge(const std::vector<ContactPair>& foun
 }
 
 void KnownContacts::take(const std::vector<ContactPair>& found, const Manner& manner) {
-  constexpr int kMostReplacements = 2;
+  constexpr int kMostReplacements = 2, kMostViews = 3;
   std::set<ContactKey> seen;
   for (const ContactPair& pair : found) seen.insert(pair.contact.key);
   std::map<ContactKey, std::vector<ContactKey>> left;  // by mover
   for (const auto& [key, pair] : known_)
-    if (seen.count(key) == 0 && replaced_[key] < kMostReplacements) left[mover(key)].push_back(key);
+    if (key.view == 0 && seen.count(key) == 0 && replaced_[key] < kMostReplacements)
+      left[mover(key)].push_back(key);
   for (const ContactPair& pair : found) {
     const ContactKey& key = pair.contact.key;
     const auto it = known_.find(key);
@@ -64,15 +61,19 @@ void KnownContacts::take(const std::vector<ContactPair>& found, const Manner& ma
       for (const ContactKey& gone : old->second) {
         const auto before = known_.find(gone);
         if (before == known_.end() || !leaves(before->second.contact, pair.contact)) continue;
-        known_.erase(before);
+        // its older views are right behind it
+        known_.erase(before, known_.upper_bound(last_view(gone)));
         ++replaced_[gone];
         replaces = true;
       }
     if (it == known_.end() && !replaces && pair.contact.gap_end >= manner.least_gap) continue;
-    if (it != known_.end() && manner.damped)
-      it->second = halfway(it->second, pair);
-    else
-      known_[key] = pair;
+    if (it != known_.end() && manner.all_views) {
+      if (pair.contact.gap_end >= manner.broken) continue;
+      ContactPair before = it->second;
+      before.contact.key.view = 1 + views_[key]++ % kMostViews;
+      known_[before.contact.key] = before;
+    }
+    known_[key] = pair;
   }
   pairs_.clear();
   for (const auto& [key, pair] : known_) {

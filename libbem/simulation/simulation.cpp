@@ -18,7 +18,8 @@ double now() {
 
 std::size_t bytes_of(const BodyModel& m) {
   std::size_t bytes = m.h->bytes();
-  for (const auto& inverse : m.inverse) bytes += inverse->bytes();
+  for (const auto* families : {&m.inverse, &m.initial_h})
+    for (const auto& family : *families) bytes += family->bytes();
   return bytes;
 }
 
@@ -47,7 +48,7 @@ FrictionMethod friction_method(ContactSolver solver) {
 /// Penetration, relative to the size of a body, with which the search for contacts of a step ends
 /// after some passes.
 double penetration_allowed(int passes) {
-  return passes < 4 ? 0 : passes < 7 ? 2e-5 : 1e-4;
+  return passes < 8 ? 0 : 2e-5;
 }
 
 }  // namespace
@@ -93,6 +94,7 @@ Simulation::Simulation(const Scene& scene, ModelSource& source) : scene_(scene) 
   options.method = friction_method(scene_.contact.solver);
   constraints_.emplace(plan_, bodies_, options);
   momentum_.start = momentum_.end = total_momentum();
+  momentum_.angular_start = momentum_.angular_end = total_angular_momentum();
   momentum_.scale = momentum_.start.norm();
   if (!scene_.contact.enabled) return;
   std::vector<ObstacleMesh> obstacles;
@@ -158,9 +160,20 @@ void Simulation::load(ModelSource& source) {
 /// Nodes that joints or contacts may act on, of bodies that share a model.
 std::vector<int> Simulation::touched_nodes(const std::vector<int>& users,
                                            const BodyModel& model) const {
-  std::vector<char> touched(model.nodes(), scene_.contact.enabled);
+  std::vector<char> touched(model.nodes(), 0), available(model.nodes(), model.loads == Loads::all);
+  for (int node : model.loaded_nodes) available[node] = 1;
+  if (scene_.contact.enabled) touched = available;
   for (int b : users)
-    for (const JointNode& n : plan_.nodes[b]) touched[n.node] = 1;
+    for (const JointNode& n : plan_.nodes[b]) {
+      if (!available[n.node])
+        throw Error(ErrorCode::archive,
+                    where(scene_.bodies[b].archive.location) + ": the archive " +
+                        in_quotes(scene_.bodies[b].archive.written) +
+                        " was made without loads on a vertex of the body " +
+                        in_quotes(scene_.bodies[b].name) +
+                        " that is fixed, moved or joined; make it again with --loads all");
+      touched[n.node] = 1;
+    }
   std::vector<int> nodes;
   for (std::size_t i = 0; i < touched.size(); ++i)
     if (touched[i]) nodes.push_back(static_cast<int>(i));
@@ -183,7 +196,10 @@ void Simulation::begin_step() {
     }
     const ElasticSystem& system = bodies_[group[0]].system();
     system.subtract_displacement_history(histories, sums);
-    std::vector<SpectralState> states = system.solve(sums);
+    std::vector<SolutionMemory*> memories;
+    for (int b : group)
+      if (system.model().is_iterative()) memories.push_back(&bodies_[b].solution_memory());
+    std::vector<SpectralState> states = system.solve(sums, memories);
     for (std::size_t i = 0; i < group.size(); ++i) begin(group[i], std::move(states[i]));
   }
 }
@@ -207,18 +223,22 @@ std::vector<ContactPair> Simulation::timed(const Detect& detect) {
   return found;
 }
 
-/// Starts from what touches at the start of the step and adds contacts until the motion that they
-/// lead to breaks no others. The best motion met goes to `best`.
-bool Simulation::find_contacts(bool friction, Attempt& best) {
-  constexpr int kMostPasses = 12, kDampedFrom = 4;
-  constexpr double kInexactness = 0.02;  // of the penetration
-  constexpr double kExact = 0.1;         // of the tolerance: errors of all steps add up to a creep
-  constexpr double kFirstGoal = 1e-4;    // of a body's size
-  const double tolerance = scene_.contact.tolerance;
+/// Starts from what touches at the start of the step.
+void Simulation::start_contacts(bool friction) {
+  constexpr double kFirstGoal = 1e-4;  // of a body's size
   contacts_.clear();
   contacts_.take(timed([&] { return collisions_->detect_at_rest(); }),
-                 {tolerance, false, friction});
+                 {scene_.contact.tolerance, 0, false, friction});
   if (!contacts_.empty()) solve_contacts(kFirstGoal * collisions_->smallest());
+}
+
+/// Adds contacts until the motion that they lead to breaks no others. The best motion met goes to
+/// `best`.
+bool Simulation::find_contacts(bool friction, Attempt& best) {
+  constexpr int kMostPasses = 12, kAllViewsFrom = 4;
+  constexpr double kInexactness = 0.02;  // of the penetration
+  constexpr double kExact = 0.1;         // of the tolerance: errors of all steps add up to a creep
+  const double tolerance = scene_.contact.tolerance;
   bool exact = false;
   for (int pass = 0;; ++pass) {
     const std::vector<ContactPair> found = timed([&] { return collisions_->detect(bodies_); });
@@ -226,26 +246,32 @@ bool Simulation::find_contacts(bool friction, Attempt& best) {
     const KnownContacts::Finding now = KnownContacts::judge(found, -allowed);
     statistics_.contacts_complete = !now.broken;
     statistics_.penetration = now.deepest;
+    statistics_.contacts_met = statistics_.contacts_met && friction;
     if (now.deepest < best.penetration) {
       best = {now.deepest, statistics_, constraints_->solution()};
     }
     if (!now.broken && (exact || statistics_.contact_residual <= kExact * tolerance)) return true;
     if (pass == kMostPasses) return false;
-    if (now.broken) contacts_.take(found, {-tolerance, pass >= kDampedFrom, friction});
+    if (now.broken) contacts_.take(found, {-tolerance, -allowed, pass >= kAllViewsFrom, friction});
     exact = !now.broken;
     solve_contacts(exact ? 0 : kInexactness * now.deepest);
   }
 }
 
-/// Contact of the step. Where it cannot be solved for, friction is left out, and in the end the
-/// motion taken that leaves the least penetration.
+/// Contact of the step. Where it cannot be solved for, friction is left out at first and then added
+/// to the motion without it; in the end the motion is taken that leaves the least penetration.
 void Simulation::collide() {
   constexpr double kDeep = 5e-4;  // of the smallest body
   Attempt best;
+  start_contacts(true);
   if (find_contacts(true, best)) return;
-  if (best.penetration > kDeep * collisions_->smallest() && find_contacts(false, best)) {
-    statistics_.contacts_met = false;
-    return;
+  if (best.penetration > kDeep * collisions_->smallest()) {
+    start_contacts(false);
+    if (find_contacts(false, best)) {
+      contacts_.restore_friction();
+      solve_contacts(0);
+      if (find_contacts(true, best)) return;
+    }
   }
   const ConstraintStatistics last = statistics_;
   statistics_ = best.statistics;
@@ -261,6 +287,14 @@ Vec3 Simulation::total_momentum() const {
   return sum;
 }
 
+/// About the origin of the world.
+Vec3 Simulation::total_angular_momentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Body& body : bodies_)
+    sum += body.frame().translation().cross(body.frame().momentum()) + body.frame().spin();
+  return sum;
+}
+
 /// Takes the motion as it is now, and what has brought it about.
 void Simulation::end_step() {
   Impulses step;
@@ -270,6 +304,7 @@ void Simulation::end_step() {
   momentum_.impulses += step;
   momentum_.scale += step.sum_of_norms();
   momentum_.end = total_momentum();
+  momentum_.angular_end = total_angular_momentum();
 }
 
 void Simulation::step() {

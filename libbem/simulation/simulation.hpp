@@ -45,7 +45,7 @@ class Simulation {
   const ConstraintStatistics& statistics() const { return statistics_; }
   /// What is in each other before the first step.
   const std::vector<CollisionScene::Overlap>& overlaps() const { return overlaps_; }
-  /// Linear momentum since the start.
+  /// Momentum since the start.
   const MomentumBalance& momentum() const { return momentum_; }
   /// Contacts of the last step and the world forces on their sides a [N].
   const std::vector<ContactPair>& contacts() const { return constraints_->contacts(); }
@@ -72,9 +72,11 @@ class Simulation {
   template <class Detect>
   std::vector<ContactPair> timed(const Detect& detect);
   void solve_contacts(double goal);
+  void start_contacts(bool friction);
   bool find_contacts(bool friction, Attempt& best);
   void collide();
   Vec3 total_momentum() const;
+  Vec3 total_angular_momentum() const;
   void end_step();
 
   Scene scene_;

@@ -150,6 +150,8 @@ TEST_CASE("balls collide: momentum of both kinds is kept") {
     const double turning = (angular_momentum(simulation) - spin).norm() / (start.norm() * 0.05);
     std::printf("balls 1:%.1f: %d steps of contact, angular momentum kept to %.2g\n", ratio,
                 touching, turning);
-    CHECK(turning < 2e-3);
+    CHECK(turning < 1e-6);
+    CHECK(simulation.momentum().angular_start.isApprox(spin, 1e-12));
+    CHECK(simulation.momentum().angular_end.isApprox(angular_momentum(simulation), 1e-12));
   }
 }

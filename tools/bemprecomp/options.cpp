@@ -27,7 +27,7 @@ struct Typed {
   std::string info, verify;
   std::vector<std::string> diff, damping;
   std::string window = "auto", model = "dynamic", codec = "lowrank", corner_angle = "none",
-              precision = "float32";
+              precision = "float32", inverse = "auto";
   std::optional<double> codec_tolerance, compression_ratio;
 };
 
@@ -67,6 +67,14 @@ void add_matrix_options(CLI::App& app, Typed& t) {
       ->type_name("R");
   app.add_option("--precision", t.precision, "with --codec none: float32 or float64 (float32)")
       ->type_name("NAME");
+  app.add_option("--inverse", t.inverse,
+                 "how steps solve with the matrices of lag 0: dense (the stored inverse), "
+                 "iterative (no inverse is computed), or auto: iterative above 8000 nodes (auto)")
+      ->type_name("NAME");
+  app.add_option("--loads", o.loads,
+                 "where contacts, joints and fixed vertices may act: all, none, or a JSON file "
+                 "with selections of vertices as in scenes (all)")
+      ->type_name("all|none|FILE");
   app.add_option("--corner-angle-deg", t.corner_angle,
                  "double nodes along sharp edges: none; angles are not supported yet (none)")
       ->type_name("A");
@@ -111,6 +119,13 @@ double positive(const std::string& option, double value) {
   refuse(option + " must be a positive number, not " + to_text(value));
 }
 
+std::optional<InverseKind> parse_inverse(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  if (text == "dense") return InverseKind::dense;
+  if (text == "iterative") return InverseKind::iterative;
+  refuse("--inverse is dense, iterative or auto, not \"" + text + "\"");
+}
+
 double parse_window(const std::string& text) {
   if (text == "auto") return 0;
   double q = 0;
@@ -143,6 +158,8 @@ void check_supported(const Typed& t) {
     refuse("--precision belongs to --codec none; use --codec-tol with --codec " + t.codec);
   if (t.precision != "float32" && t.precision != "float64")
     refuse("--precision is float32 or float64, not \"" + t.precision + "\"");
+  if (t.codec != "lowrank" && t.options.loads != "all" && t.options.loads != "none")
+    refuse("--loads with a file needs --codec lowrank");
 }
 
 void check_inputs(const Options& o) {
@@ -161,7 +178,7 @@ void check_inputs(const Options& o) {
 /// An output must not destroy an input.
 void check_distinct_files(const Options& o) {
   std::vector<std::string> inputs = o.archives;
-  inputs.insert(inputs.end(), {o.mesh, o.material});
+  inputs.insert(inputs.end(), {o.mesh, o.material, o.loads});
   std::error_code ignored;
   for (const std::string& written : {o.output, o.stats, o.log_file})
     for (const std::string& read : inputs)
@@ -194,6 +211,7 @@ Options checked(const CLI::App& app, Typed& t) {
     o.model = t.model == "rigid" ? ModelKind::rigid : ModelKind::dynamic;
     o.window = parse_window(t.window);
     o.precision = t.precision == "float32" ? Precision::float32 : Precision::float64;
+    o.inverse = parse_inverse(t.inverse);
     o.codec.codec = t.codec == "none"   ? Codec::none
                     : t.codec == "haar" ? Codec::haar
                                         : Codec::lowrank;
@@ -224,6 +242,8 @@ std::string Options::canonical_text() const {
     text += " --compression-ratio " + to_text(codec.ratio);
   else
     text += " --codec-tol " + to_text(codec.tolerance);
+  if (inverse) text += *inverse == InverseKind::dense ? " --inverse dense" : " --inverse iterative";
+  if (loads != "all") text += " --loads " + loads;
   return text + " --corner-angle-deg none";
 }
 

@@ -25,6 +25,8 @@ struct Options {
   double quadrature_tolerance = 1e-6;
   Precision precision = Precision::float32;  ///< of codec none
   CodecOptions codec;
+  std::optional<InverseKind> inverse;  ///< else by the number of nodes
+  std::string loads = "all";           ///< "all", "none" or a file with selections
   double mesh_scale = 1;
   std::optional<int> threads;
 

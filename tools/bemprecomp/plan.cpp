@@ -7,13 +7,17 @@
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
 #include "compress/dense_store.hpp"
+#include "dynamics/selection.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
+#include "model/memory_estimate.hpp"
 #include "scene/material_json.hpp"
+#include "scene/selection_json.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 namespace bem {
 namespace {
@@ -34,6 +38,39 @@ BodyGeometry read_body(const Options& o, double density, std::vector<std::string
   Surface surface = make_surface(std::move(mesh), o.mesh);
   warnings = surface.warnings;
   return make_geometry(surface, density);
+}
+
+/// Nodes that a file of selections chooses.
+std::vector<int> read_loaded_nodes(const std::string& path, const BodyGeometry& geometry) {
+  std::set<int> nodes;
+  for (const Selection& s : read_selections(path))
+    for (int node : select_nodes(geometry, s)) nodes.insert(node);
+  return {nodes.begin(), nodes.end()};
+}
+
+void plan_storage(const Options& o, Plan& plan) {
+  constexpr std::size_t kMostDense = 8000;  // nodes
+  PrecomputeOptions& p = plan.options;
+  p.precision = o.precision;
+  p.codec = o.codec;
+  const bool large = plan.geometry.nodes.vertices.size() > kMostDense;
+  p.inverse = o.inverse.value_or(large ? InverseKind::iterative : InverseKind::dense);
+  if (o.loads == "none") {
+    p.loads = Loads::none;
+  } else if (o.loads != "all") {
+    p.loads = Loads::some;
+    p.loaded_nodes = read_loaded_nodes(o.loads, plan.geometry);
+  }
+}
+
+void estimate_bytes(bool sample, Plan& plan) {
+  if (plan.options.codec.codec != Codec::lowrank || sample) {
+    const StoredEstimate stored = estimate_stored(plan.geometry, plan.options);
+    plan.stored = stored.bytes;
+    plan.compression_seconds = stored.assembly_seconds;
+  }
+  plan.peak = peak_bytes(plan.geometry, plan.options, plan.stored);
+  plan.archive_bytes = archive_bytes(plan.geometry, plan.options, plan.stored);
 }
 
 int history_length(const Options& o, const Scheme& scheme, double lam) {
@@ -60,15 +97,16 @@ double seconds_per_row(const Plan& plan) {
   return seconds_of(assemble) / static_cast<double>(rows);
 }
 
-/// Factorisation, solution for n right-hand sides and inverse, for one initial component.
+/// Factorisation, inverse and, if asked for, solution for n right-hand sides, for one initial
+/// component.
 template <class T>
-double seconds_of_inversion(double unknowns) {
+double seconds_of_inversion(double unknowns, bool solution) {
   const auto n = static_cast<Eigen::Index>(std::min(unknowns, 768.0));
   DenseMatrix<T> a = DenseMatrix<T>::Random(n, n), b = DenseMatrix<T>::Random(n, n);
   a.diagonal().array() += T(static_cast<double>(n));
   const double seconds = seconds_of([&] {
     Lu<T> lu(std::move(a));
-    lu.solve(b);
+    if (solution) lu.solve(b);
     a = std::move(lu).invert();
   });
   return seconds * std::pow(unknowns / static_cast<double>(n), 3);
@@ -94,7 +132,7 @@ Plan make_plan(const Options& o) {
   plan.options.kind = o.model;
   if (o.model == ModelKind::rigid) {
     plan.geometry = read_body(o, d.material.density, plan.warnings);
-    plan.archive_bytes = archive_bytes(plan.geometry, plan.options);
+    plan.archive_bytes = archive_bytes(plan.geometry, plan.options, 0);
     return plan;
   }
   if (!o.dt && !d.material.time_step)
@@ -102,18 +140,16 @@ Plan make_plan(const Options& o) {
   d.dt = o.dt ? *o.dt : *d.material.time_step;
   d.scheme = Scheme::parse(o.scheme);
   d.quadrature_tolerance = o.quadrature_tolerance;
-  plan.options.precision = o.precision;
-  plan.options.codec = o.codec;
   plan.options.window = o.window;
   plan.geometry = read_body(o, d.material.density, plan.warnings);
+  plan_storage(o, plan);
   plan.lam = traversal_steps(plan.geometry, d.material, d.dt);
   if (!(plan.lam <= kMostTraversalSteps))
     throw Error(ErrorCode::usage,
                 "the time step " + to_text(d.dt) + " s is too small: a shear wave takes " +
                     to_text(std::round(plan.lam)) + " steps across the body; use a larger --dt");
   d.history_length = history_length(o, d.scheme, plan.lam);
-  plan.memory = precompute_memory(plan.geometry.nodes.vertices.size(), plan.options);
-  plan.archive_bytes = archive_bytes(plan.geometry, plan.options);
+  estimate_bytes(o.dry_run, plan);
   if (d.history_length > kLongHistory)
     plan.warnings.push_back(
         "the history is long: " + std::to_string(d.history_length) +
@@ -123,14 +159,15 @@ Plan make_plan(const Options& o) {
 
 void check_memory(const Plan& plan) {
   const auto available = static_cast<double>(physical_memory());
-  if (plan.memory.peak <= available) return;
+  if (plan.peak <= available) return;
   throw Error(
       ErrorCode::resources,
-      "not enough memory: " + bytes_text(plan.memory.peak) + " are needed for " +
+      "not enough memory: " + bytes_text(plan.peak) + " are needed for " +
           std::to_string(plan.geometry.nodes.vertices.size()) + " nodes and a history of " +
           std::to_string(plan.options.discretisation.history_length) +
           " steps, but the machine has " + bytes_text(available) +
-          "; use a coarser mesh, a larger --dt, a shorter --history or --precision float32");
+          "; use --codec lowrank, --inverse iterative, a coarser mesh, a larger --dt or a shorter "
+          "--history");
 }
 
 TimeEstimate estimate_time(const Plan& plan) {
@@ -138,17 +175,24 @@ TimeEstimate estimate_time(const Plan& plan) {
   constexpr double kGrowthSteps = 150, kWriteSpeed = 1e9;
   const Discretisation& d = plan.options.discretisation;
   const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());
+  const bool compressed = plan.options.codec.codec == Codec::lowrank;
   const bool single =
       plan.options.precision == Precision::float32 && d.quadrature_tolerance >= 1e-6;
+  const bool dense = plan.options.inverse == InverseKind::dense;
   TimeEstimate t;
-  t.assembly = nodes * (single ? seconds_per_row<float>(plan) : seconds_per_row<double>(plan));
+  t.assembly =
+      compressed ? plan.compression_seconds
+                 : nodes * (single ? seconds_per_row<float>(plan) : seconds_per_row<double>(plan));
   for (const InitialComponent& c : d.scheme.initial_components())
-    t.inversion += c.paired ? seconds_of_inversion<Complex>(3 * nodes)
-                            : seconds_of_inversion<double>(3 * nodes);
-  t.inversion += seconds_of_inversion<double>(3 * nodes) / 4;  // static balance: factors alone
-  // a step reads the H_k, about half of what is stored
+    if (dense)
+      t.inversion += c.paired ? seconds_of_inversion<Complex>(3 * nodes, !compressed)
+                              : seconds_of_inversion<double>(3 * nodes, !compressed);
+  // a step reads the H_k, about half of what is stored; iterative ones H_0 many times
+  constexpr double kIterations = 30;
+  const double lags = static_cast<double>(d.history_length * d.scheme.lag_components().size());
+  const double reads = 0.5 * (dense ? 1 : 1 + kIterations / lags);
   t.growth =
-      (kGrowthSteps + d.history_length) * plan.memory.stored / 2 * seconds_per_byte_of_products();
+      (kGrowthSteps + d.history_length) * plan.stored * reads * seconds_per_byte_of_products();
   t.writing = plan.archive_bytes / kWriteSpeed;
   return t;
 }

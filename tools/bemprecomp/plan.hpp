@@ -12,9 +12,11 @@ namespace bem {
 struct Plan {
   BodyGeometry geometry;
   PrecomputeOptions options;
-  double lam = 0;         ///< steps that a shear wave takes across the body
-  MemoryEstimate memory;  ///< [bytes]
-  double archive_bytes = 0;
+  double lam = 0;  ///< steps that a shear wave takes across the body
+  /// Bytes of the matrices, of the working set at most, and of the archive. What compression will
+  /// leave is estimated for a dry run only, and zero otherwise.
+  double stored = 0, peak = 0, archive_bytes = 0;
+  double compression_seconds = 0;  ///< of assembly and compression, if that was estimated
   std::vector<std::string> warnings;
 };
 

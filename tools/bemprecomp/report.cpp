@@ -56,7 +56,9 @@ Json report_json(const ModelReport& r) {
            {{"h", r.codec_errors.h},
             {"g", r.codec_errors.g},
             {"inverse", r.codec_errors.inverse},
-            {"traction_response", r.codec_errors.traction_response}}}};
+            {"traction_response", r.codec_errors.traction_response},
+            {"initial_h", r.codec_errors.initial_h},
+            {"initial_g", r.codec_errors.initial_g}}}};
 }
 
 /// "name:   value" lines with aligned values.
@@ -113,12 +115,41 @@ Json info_json(const Archive& archive) {
   json["codec"] = codec_name(archive.codec());
   if (archive.codec() == Codec::none) json["precision"] = precision_name(archive.precision());
   json["scheme"] = scheme_json(archive.discretisation(), archive.window());
-  json["matrices"] = {{"unknowns", archive.unknowns()}, {"count", archive.matrix_paths().size()}};
+  json["matrices"] = {{"unknowns", archive.unknowns()},
+                      {"count", archive.matrix_paths().size()},
+                      {"inverse", inverse_name(archive.is_iterative())},
+                      {"loads", loads_name(archive.loads())}};
+  if (archive.loads() == Loads::some)
+    json["matrices"]["loaded_nodes"] = archive.loaded_nodes().size();
   json["report"] = report_json(archive.report());
   return json;
 }
 
 namespace {
+
+void print_codec_errors(Table& table, const Archive& archive) {
+  const ModelReport::CodecErrors& e = archive.report().codec_errors;
+  if (archive.is_iterative())
+    table.line("codec errors", "H ", e.h, ", G ", e.g, ", H_0 ", e.initial_h, ", G_0 ",
+               e.initial_g);
+  else
+    table.line("codec errors", "H ", e.h, ", G ", e.g, ", inverse ", e.inverse,
+               ", traction response ", e.traction_response);
+}
+
+void print_storage(Table& table, const Archive& archive) {
+  const char* inverse = archive.is_iterative() ? "none: steps solve with H_0" : "stored";
+  switch (archive.loads()) {
+    case Loads::all:
+      table.line("inverse", inverse, "; loads on all nodes");
+      break;
+    case Loads::some:
+      table.line("inverse", inverse, "; loads on ", archive.loaded_nodes().size(), " nodes");
+      break;
+    case Loads::none:
+      table.line("inverse", inverse, "; no loads on single nodes, contacts or joints");
+  }
+}
 
 void print_matrices(Table& table, const Archive& archive) {
   const Discretisation& d = archive.discretisation();
@@ -130,13 +161,13 @@ void print_matrices(Table& table, const Archive& archive) {
              archive.codec() == Codec::none
                  ? std::string(", ") + precision_name(archive.precision())
                  : "");
+  print_storage(table, archive);
   table.line("quadrature", "tolerance ", d.quadrature_tolerance, ", row sums repaired by ",
              r.row_sum_residual, ", rotation residual ", r.rotation_residual);
-  if (archive.codec() != Codec::none)
-    table.line("codec errors", "H ", r.codec_errors.h, ", G ", r.codec_errors.g, ", inverse ",
-               r.codec_errors.inverse, ", traction response ", r.codec_errors.traction_response);
+  if (archive.codec() != Codec::none) print_codec_errors(table, archive);
   table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
-             " without window), condition number ", r.condition);
+             " without window)");
+  if (!archive.is_iterative()) table.line("condition", r.condition, " (lag 0)");
 }
 
 }  // namespace
@@ -165,9 +196,8 @@ void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
   print_scheme(table, d, plan.lam);
   table.line("lam", plan.lam);
   table.line("n_max", d.history_length);
-  table.line("memory", bytes_text(plan.memory.stored), " of matrices, ",
-             bytes_text(plan.memory.peak), " at most (the machine has ",
-             bytes_text(static_cast<double>(physical_memory())), ")");
+  table.line("memory", bytes_text(plan.stored), " of matrices, ", bytes_text(plan.peak),
+             " at most (the machine has ", bytes_text(static_cast<double>(physical_memory())), ")");
   table.line("time", "about ", seconds_text(time.total()), " on ", thread_count(),
              " threads (assembly ", seconds_text(time.assembly), ", inversion ",
              seconds_text(time.inversion), ", growth factor ", seconds_text(time.growth),

@@ -82,7 +82,7 @@ Provenance provenance_of(const Options& o) {
 }
 
 int run_dry(const Plan& plan, Log& log) {
-  if (plan.memory.peak > static_cast<double>(physical_memory()))
+  if (plan.peak > static_cast<double>(physical_memory()))
     log.warning("the machine has not enough memory for this");
   print_plan(std::cout, plan, estimate_time(plan));
   return 0;
@@ -105,7 +105,7 @@ int run_precompute(const Options& o, Log& log) {
   if (o.model == ModelKind::dynamic)
     log.info(std::to_string(plan.geometry.nodes.vertices.size()) + " nodes, history of " +
              std::to_string(plan.options.discretisation.history_length) + " steps, " +
-             bytes_text(plan.memory.peak) + " of memory");
+             (plan.stored > 0 ? "" : "at least ") + bytes_text(plan.peak) + " of memory");
 
   phases.begin("tables");
   const BodyModel model = precompute(std::move(plan.geometry), plan.options, phases.callback());

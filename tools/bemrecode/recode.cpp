@@ -74,10 +74,15 @@ std::unique_ptr<MatrixFamily> recode(const DenseFamily<float>& family,
 
 std::vector<NamedFamily> families_of(BodyModel& model) {
   ModelReport::CodecErrors& e = model.report.codec_errors;
-  std::vector<NamedFamily> out = {{"h", &model.h, &e.h}, {"g", &model.g, &e.g}};
-  for (auto& family : model.inverse) out.push_back({"inverse", &family, &e.inverse});
-  for (auto& family : model.traction_response)
-    out.push_back({"traction_response", &family, &e.traction_response});
+  std::vector<NamedFamily> out = {{"h", &model.h, &e.h}};
+  if (model.g) out.push_back({"g", &model.g, &e.g});
+  const auto add = [&](const char* name, auto& families, double& error) {
+    for (auto& family : families) out.push_back({name, &family, &error});
+  };
+  add("inverse", model.inverse, e.inverse);
+  add("traction_response", model.traction_response, e.traction_response);
+  add("initial_h", model.initial_h, e.initial_h);
+  add("initial_g", model.initial_g, e.initial_g);
   return out;
 }
 

@@ -90,7 +90,9 @@ Json momentum_json(const MomentumBalance& m) {
             {"joints_to_world", vector_json(m.impulses.joints)},
             {"window", vector_json(m.impulses.window)}}},
           {"defect", m.defect()},
-          {"relative_defect", m.relative_defect()}};
+          {"relative_defect", m.relative_defect()},
+          {"angular_start", vector_json(m.angular_start)},
+          {"angular_end", vector_json(m.angular_end)}};
 }
 
 Json body_json(const PlannedBody& planned, const Body& body) {

@@ -187,8 +187,8 @@ TEST_CASE("Parts of an archive are those of the whole") {
     REQUIRE(part.lags->count() == expected.lags->count());
     for (int k = 0; k < part.lags->count(); ++k)
       CHECK(entries(*part.lags, k) == entries(*expected.lags, k));
-    for (std::size_t i = 0; i < part.response.size(); ++i)
-      CHECK(entries(*part.response[i], 0) == entries(*expected.response[i], 0));
+    for (std::size_t i = 0; i < part.initial.size(); ++i)
+      CHECK(entries(*part.initial[i], 0) == entries(*expected.initial[i], 0));
   }
   CHECK_THROWS_AS(archive.load_tractions({42}), Error);
   CHECK_THROWS_AS(archive.load_tractions({-1}), Error);

@@ -1,0 +1,89 @@
+#include "model/memory_estimate.hpp"
+
+#include "base/parallel.hpp"
+#include "compress/block_partition.hpp"
+#include "model/model_assembly.hpp"
+
+#include <algorithm>
+
+namespace bem {
+namespace {
+
+struct Counts {
+  double lags = 0, parts = 0;  ///< matrices of lags >= 1 and parts of lag 0, of H alone
+  double kinds = 1;            ///< H, or H and G
+};
+
+Counts counts_of(const PrecomputeOptions& o) {
+  const LaneLayout layout(o.discretisation.scheme, o.discretisation.history_length);
+  return {static_cast<double>(layout.count() - layout.initial), static_cast<double>(layout.initial),
+          o.loads == Loads::none ? 1.0 : 2.0};
+}
+
+double square(const BodyGeometry& g) {
+  const double n = 3.0 * static_cast<double>(g.nodes.vertices.size());
+  return n * n;
+}
+
+/// Body forces and the balance matrices, in double precision.
+double small_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
+  const Counts c = counts_of(o);
+  return 3.0 * static_cast<double>(g.nodes.vertices.size()) * 6 * 8 * (c.lags + c.parts + c.kinds);
+}
+
+/// Bytes that numbers of lag 0 take while they are factorised: complex ones count twice.
+double initial_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
+  double bytes = 0;
+  for (const InitialComponent& c : o.discretisation.scheme.initial_components())
+    bytes += square(g) * (c.paired ? 16 : 8);
+  return bytes;
+}
+
+double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o, double stored) {
+  constexpr double kCopies = 3.5;  // of the numbers of a block while its bases are found
+  constexpr double kTileNodes = 8;
+  const Counts c = counts_of(o);
+  const double n = 3.0 * static_cast<double>(g.nodes.vertices.size());
+  double slab_rows = 0, widest = 0;
+  for (const Slab& s : make_partition(g.nodes.vertices, {})) {
+    slab_rows = std::max(slab_rows, 3.0 * (s.row_end - s.row_begin));
+    for (const NodeBlock& b : s.blocks) widest = std::max(widest, 9.0 * b.rows() * b.columns());
+  }
+  const double slab = slab_rows * n * c.kinds * (4 * c.lags + 8 * c.parts) +
+                      slab_rows * n * 4 * c.parts;  // one copy of parts of lag 0
+  const double rows = kTileNodes * n * 5 * 4 * (c.lags + c.parts + 4);  // of the assembler
+  const double work = thread_count() * (kCopies * 4 * widest * c.lags + rows);
+  const double dense = o.inverse == InverseKind::dense ? initial_bytes(g, o) : 0;
+  return stored + dense + slab + work;
+}
+
+}  // namespace
+
+StoredEstimate estimate_stored(const BodyGeometry& g, const PrecomputeOptions& o) {
+  if (o.kind == ModelKind::rigid) return {};
+  StoredEstimate out;
+  if (o.codec.codec == Codec::lowrank) {
+    out = sample_compression(g, o);
+  } else {
+    constexpr double kWithIndices = 1.5;  // a number of codec haar and its place
+    const Counts c = counts_of(o);
+    out.bytes = square(g) * static_cast<double>(bytes_per_entry(o.precision)) * c.kinds *
+                (c.lags + c.parts);
+    if (o.codec.ratio > 0) out.bytes *= std::min(1.0, kWithIndices / o.codec.ratio);
+  }
+  out.bytes += small_bytes(g, o);
+  return out;
+}
+
+double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, double stored) {
+  if (o.kind == ModelKind::rigid) return 0;
+  if (o.codec.codec == Codec::lowrank) return compressed_peak(g, o, stored);
+  const Counts c = counts_of(o);
+  const double entry = static_cast<double>(bytes_per_entry(o.precision));
+  // lag 0 is double while it is factorised; the stored copies replace it one by one
+  const double lags = square(g) * entry * c.kinds * c.lags;
+  const double initial = o.inverse == InverseKind::dense ? initial_bytes(g, o) * c.kinds : 0;
+  return std::max(lags + initial + square(g) * entry * c.parts, stored) + small_bytes(g, o);
+}
+
+}  // namespace bem

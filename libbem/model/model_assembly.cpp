@@ -1,0 +1,294 @@
+#include "model/model_assembly.hpp"
+
+#include "compress/direct_builder.hpp"
+#include "compress/low_rank_builder.hpp"
+#include "model/initial_inverse.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace bem {
+namespace {
+
+/// |H_0 W + s^2 Q_0| relative to |H_0|: rotation is not imposed, so this measures the quadrature.
+class RotationResidual {
+ public:
+  explicit RotationResidual(const BodyModel& model) : model_(model) {
+    const auto n = static_cast<Eigen::Index>(model.nodes());
+    turns_.resize(3 * n, 3);
+    for (Eigen::Index i = 0; i < n; ++i)
+      turns_.middleRows<3>(3 * i) = cross_matrix(model.geometry.nodes.vertices[i]).transpose();
+  }
+
+  /// Takes the rows of H_0 of a slab, whose body forces are known.
+  template <class T>
+  void add(const MatrixSlab<T>& slab) {
+    const InitialComponent& c = model_.discretisation.scheme.initial_components()[0];
+    const Complex s = c.eigenvalue / model_.discretisation.dt;
+    Eigen::MatrixXcd moved = (slab.initial_h[0] * turns_).template cast<Complex>();
+    if (c.paired) moved.imag() = slab.initial_h[1] * turns_;
+    moved += s * s *
+             model_.initial_body_force[0].block(3 * slab.first, 3, 3 * (slab.last - slab.first), 3);
+    largest_ = std::max(largest_, moved.cwiseAbs().maxCoeff());
+  }
+  double value() const { return largest_ / model_.geometry.extent; }
+
+ private:
+  const BodyModel& model_;
+  Eigen::MatrixXd turns_;
+  double largest_ = 0;
+};
+
+template <class T>
+std::vector<MatrixView<T>> views(
+    const std::vector<Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>>& matrices) {
+  std::vector<MatrixView<T>> out;
+  for (const auto& m : matrices)
+    out.emplace_back(m.data(), m.rows(), m.cols(), Eigen::OuterStride<>(m.rows()));
+  return out;
+}
+
+/// Where one initial component's parts are among the parts of lag 0.
+template <class F>
+void for_each_initial(const Scheme& scheme, const F& f) {
+  int part = 0;
+  for (std::size_t i = 0; i < scheme.initial_components().size(); ++i) {
+    const int parts = scheme.initial_components()[i].paired ? 2 : 1;
+    f(i, part, parts);
+    part += parts;
+  }
+}
+
+/// What the slabs of the matrices become; what is not wanted is empty.
+template <class T>
+struct Targets {
+  std::unique_ptr<FamilyBuilder<T>> h, g;                               ///< lags
+  std::vector<std::unique_ptr<FamilyBuilder<T>>> initial_h, initial_g;  ///< by initial component
+  std::vector<InitialMatrix> dense_h, dense_g;  ///< the same, to be inverted
+};
+
+/// Assembles all slabs and gives them to their targets.
+template <class T>
+void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vector<Slab>& slabs,
+                  Targets<T>& targets, const Progress& progress) {
+  MatrixSlab<T> slab;
+  RotationResidual rotation(model);
+  const double nodes = static_cast<double>(model.nodes());
+  const auto set_dense = [&](std::vector<InitialMatrix>& to, std::size_t i,
+                             const std::vector<Eigen::MatrixXd>& from, int part, int parts) {
+    if (!to.empty())
+      to[i].set_rows(3 * slab.first, from[part], parts > 1 ? &from[part + 1] : nullptr);
+  };
+  const auto add_rows = [&](std::vector<std::unique_ptr<FamilyBuilder<T>>>& to, std::size_t i,
+                            const std::vector<Eigen::MatrixXd>& from, int part, int parts) {
+    if (to.empty()) return;
+    std::vector<typename MatrixSlab<T>::Matrix> rows;
+    for (int k = part; k < part + parts; ++k) rows.emplace_back(from[k].template cast<T>());
+    to[i]->add_rows(views(rows));
+  };
+  for (const Slab& s : slabs) {
+    if (progress) progress("assembly", s.row_begin / nodes);
+    assembler.assemble(s.row_begin, s.row_end, slab);
+    rotation.add(slab);
+    targets.h->add_rows(views(slab.h));
+    if (targets.g) targets.g->add_rows(views(slab.g));
+    for_each_initial(model.discretisation.scheme, [&](std::size_t i, int part, int parts) {
+      set_dense(targets.dense_h, i, slab.initial_h, part, parts);
+      set_dense(targets.dense_g, i, slab.initial_g, part, parts);
+      add_rows(targets.initial_h, i, slab.initial_h, part, parts);
+      add_rows(targets.initial_g, i, slab.initial_g, part, parts);
+    });
+  }
+  model.report.row_sum_residual = assembler.row_sum_residual();
+  model.report.rotation_residual = rotation.value();
+}
+
+std::vector<InitialMatrix> dense_matrices(const BodyModel& model) {
+  std::vector<InitialMatrix> out;
+  for (const InitialComponent& c : model.discretisation.scheme.initial_components())
+    out.emplace_back(static_cast<Eigen::Index>(3 * model.nodes()), c.paired);
+  return out;
+}
+
+/// Far panels in single precision where neither storage nor tolerance asks for more.
+AssemblyPrecision assembly_precision(const PrecomputeOptions& options) {
+  const bool single =
+      (options.codec.codec != Codec::none || options.precision == Precision::float32) &&
+      options.discretisation.quadrature_tolerance >= 1e-6;
+  return single ? AssemblyPrecision::single : AssemblyPrecision::full;
+}
+
+/// Takes a builder's family; returns its error.
+template <class T>
+double finish(FamilyBuilder<T>& builder, std::unique_ptr<MatrixFamily>& family) {
+  family = builder.finish();
+  return builder.error();
+}
+
+/// What the targets of lags, and of lag 0 where it is kept, have become.
+template <class T>
+void take_families(Targets<T>& targets, BodyModel& model) {
+  ModelReport::CodecErrors& errors = model.report.codec_errors;
+  errors.h = finish(*targets.h, model.h);
+  if (targets.g) errors.g = finish(*targets.g, model.g);
+  const auto take = [](auto& builders, auto& families, double& error) {
+    for (auto& builder : builders) {
+      families.emplace_back();
+      error = std::max(error, finish(*builder, families.back()));
+    }
+  };
+  take(targets.initial_h, model.initial_h, errors.initial_h);
+  take(targets.initial_g, model.initial_g, errors.initial_g);
+}
+
+template <class T>
+void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
+                       const Progress& progress) {
+  const int n = static_cast<int>(model.nodes());
+  const bool tractions = options.loads != Loads::none;
+  SlabAssembler<T> assembler(model, assembly_precision(options));
+  Targets<T> targets;
+  const auto builder = [&](int count) { return make_direct_builder<T>(options.codec, n, count); };
+  targets.h = builder(assembler.lag_count());
+  if (tractions) targets.g = builder(assembler.lag_count());
+  if (options.inverse == InverseKind::dense) {
+    targets.dense_h = dense_matrices(model);
+    if (tractions) targets.dense_g = dense_matrices(model);
+  } else {
+    for_each_initial(model.discretisation.scheme, [&](std::size_t, int, int parts) {
+      targets.initial_h.push_back(builder(parts));
+      if (tractions) targets.initial_g.push_back(builder(parts));
+    });
+  }
+  assemble_all(assembler, model, direct_slabs(options.codec, n), targets, progress);
+  take_families(targets, model);
+  for (std::size_t i = 0; i < targets.dense_h.size(); ++i)
+    invert_dense(model, std::move(targets.dense_h[i]), tractions ? &targets.dense_g[i] : nullptr,
+                 options.codec, progress);
+}
+
+/// What the builders of a compressed model need to know before they see all rows, from a sample.
+class CompressedBuilders {
+ public:
+  CompressedBuilders(SlabAssembler<float>& assembler, const std::vector<Slab>& slabs,
+                     double tolerance)
+      : slabs_(slabs), slab_(slabs[slabs.size() / 2]), tolerance_(tolerance) {
+    norms_ = assembler.estimate_norms();
+    assembler.assemble(slab_.row_begin, slab_.row_end, sample_);
+  }
+
+  std::unique_ptr<LowRankBuilder> h() const { return builder(sample_.h, norms_.h, tolerance_); }
+  std::unique_ptr<LowRankBuilder> g() const { return builder(sample_.g, norms_.g, tolerance_); }
+  /// Of parts of H_0 or G_0. `part_of_tolerance`: less than one for what is an ingredient only.
+  std::unique_ptr<LowRankBuilder> initial_h(int first, int count) const {
+    return builder(parts(sample_.initial_h, first, count), norms_.initial_h, tolerance_);
+  }
+  std::unique_ptr<LowRankBuilder> initial_g(int first, int count, double part_of_tolerance) const {
+    return builder(parts(sample_.initial_g, first, count), norms_.initial_g,
+                   part_of_tolerance * tolerance_);
+  }
+
+ private:
+  static std::vector<Eigen::MatrixXf> parts(const std::vector<Eigen::MatrixXd>& from, int first,
+                                            int count) {
+    std::vector<Eigen::MatrixXf> out;
+    for (int i = first; i < first + count; ++i) out.emplace_back(from[i].cast<float>());
+    return out;
+  }
+  std::unique_ptr<LowRankBuilder> builder(const std::vector<Eigen::MatrixXf>& sample, double norm,
+                                          double tolerance) const {
+    return std::make_unique<LowRankBuilder>(
+        slabs_, static_cast<int>(sample.size()),
+        LowRankBuilder::choose_quantum(slab_, views(sample), tolerance * norm));
+  }
+
+  const std::vector<Slab>& slabs_;
+  const Slab& slab_;
+  double tolerance_;
+  SlabAssembler<float>::Norms norms_;
+  MatrixSlab<float> sample_;
+};
+
+Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::vector<Slab>& slabs,
+                                  const BodyModel& model, const PrecomputeOptions& options) {
+  constexpr double kOfIngredient = 0.3;  // of the tolerance: G_0 that becomes H_0^{-1} G_0
+  const bool tractions = options.loads != Loads::none;
+  const bool iterative = options.inverse == InverseKind::iterative;
+  const CompressedBuilders builders(assembler, slabs, options.codec.tolerance);
+  Targets<float> targets;
+  targets.h = builders.h();
+  if (tractions) targets.g = builders.g();
+  if (!iterative) targets.dense_h = dense_matrices(model);
+  for_each_initial(model.discretisation.scheme, [&](std::size_t, int part, int parts) {
+    if (iterative) targets.initial_h.push_back(builders.initial_h(part, parts));
+    if (tractions)
+      targets.initial_g.push_back(builders.initial_g(part, parts, iterative ? 1.0 : kOfIngredient));
+  });
+  return targets;
+}
+
+void assemble_compressed(BodyModel& model, const PrecomputeOptions& options,
+                         const Progress& progress) {
+  SlabAssembler<float> assembler(model, assembly_precision(options));
+  const std::vector<Slab> slabs = make_partition(model.geometry.nodes.vertices, {});
+  Targets<float> targets = compressed_targets(assembler, slabs, model, options);
+  assemble_all(assembler, model, slabs, targets, progress);
+  take_families(targets, model);
+  if (options.inverse == InverseKind::iterative) return;
+  const std::vector<std::unique_ptr<MatrixFamily>> initial_g = std::move(model.initial_g);
+  model.initial_g.clear();
+  model.report.codec_errors.initial_g = 0;  // not in the model
+  for (std::size_t i = 0; i < targets.dense_h.size(); ++i)
+    invert_compressed(
+        model, std::move(targets.dense_h[i]),
+        initial_g.empty() ? nullptr : dynamic_cast<const LowRankFamily*>(initial_g[i].get()),
+        options.codec.tolerance, progress);
+}
+
+}  // namespace
+
+void assemble_model(BodyModel& model, const PrecomputeOptions& options, const Progress& progress) {
+  if (options.codec.codec == Codec::lowrank)
+    assemble_compressed(model, options, progress);
+  else if (options.precision == Precision::float32)
+    assemble_directly<float>(model, options, progress);
+  else
+    assemble_directly<double>(model, options, progress);
+}
+
+StoredEstimate sample_compression(const BodyGeometry& geometry, const PrecomputeOptions& options) {
+  constexpr std::size_t kSamples = 3;
+  constexpr double kOfInverse = 0.7;  // of the bytes of H_0 and G_0
+  BodyModel model;
+  model.geometry = geometry;
+  model.discretisation = options.discretisation;
+  model.loads = options.loads;
+  model.loaded_nodes = options.loaded_nodes;
+  PrecomputeOptions iterative = options;  // H_0 and G_0 are compressed
+  iterative.inverse = InverseKind::iterative;
+  const std::vector<Slab> all = make_partition(geometry.nodes.vertices, {});
+  const std::size_t samples = std::min(kSamples, all.size());
+  std::vector<Slab> slabs;
+  double rows = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    slabs.push_back(all[(2 * i + 1) * all.size() / (2 * samples)]);
+    rows += slabs.back().row_end - slabs.back().row_begin;
+  }
+  SlabAssembler<float> assembler(model, assembly_precision(options));
+  Targets<float> targets = compressed_targets(assembler, slabs, model, iterative);
+  const auto start = std::chrono::steady_clock::now();
+  assemble_all(assembler, model, slabs, targets, nullptr);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  take_families(targets, model);
+  double lags = 0, initial = 0;
+  for (const auto* family : {model.h.get(), model.g.get()})
+    if (family) lags += static_cast<double>(family->bytes());
+  for (const auto* families : {&model.initial_h, &model.initial_g})
+    for (const auto& family : *families) initial += static_cast<double>(family->bytes());
+  if (options.inverse == InverseKind::dense) initial *= kOfInverse;
+  const double all_rows = static_cast<double>(model.nodes()) / rows;
+  return {(lags + initial) * all_rows, seconds * all_rows};
+}
+
+}  // namespace bem
