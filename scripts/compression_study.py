@@ -146,10 +146,11 @@ class Study:
             parts.append(tables.orders_table(found["orders"]))
         for comparison in filter(None, products.values()):
             parts.append(tables.products_table(comparison))
-            factors = tables.least_factor(comparison, 0.1)
-            if factors:
-                parts.append("\nFrom 10 % of the uncompressed bytes on, errors of haar are those of lowrank times "
-                             f"{factors[0]:.0f} (matrices) and {factors[1]:.0f} (single products) or more.")
+            for fraction in (0.05, 0.1):
+                factors = tables.least_factor(comparison, fraction)
+                if factors:
+                    parts.append(f"\nFrom {100 * fraction:.0f} % of the uncompressed bytes on, errors of haar are those of "
+                                 f"lowrank times {factors[0]:.0f} (matrices) and {factors[1]:.0f} (single products) or more.")
         if found["tolerances"]:
             nodes = products["bunny"]["nodes"] if products["bunny"] else "bunny's"
             parts.append(tables.tolerance_table(nodes, found["tolerances"]["runs"], found["tolerances"]["dense"]))
