@@ -9,7 +9,7 @@ namespace bem {
 namespace {
 
 constexpr double kHalfError = 2.5e-4;  // relative, of many numbers rounded to half precision
-constexpr int kDropped = 16;            // bits of a float that do not count for its class
+constexpr int kDropped = 16;           // bits of a float that do not count for its class
 
 }  // namespace
 
