@@ -11,8 +11,8 @@ namespace bem {
 /// Columns are transformed, and rows within a slab, as slabs come; means over the rows of slabs,
 /// one row per slab, wait for finish(), so that the transform is that of the whole matrices. Of the
 /// other coefficients those are kept in packed form that may still be among the largest. Memory:
-/// the means (a part 1/kSlabNodes to 2/kSlabNodes of the matrices in single precision), at most
-/// about twice what the family takes with values in single precision, and what a slab is
+/// the means (a part 1/kSlabNodes to 2/kSlabNodes of the matrices in single precision), two to
+/// three times what the family takes with values in single precision, and what a slab is
 /// transformed in.
 class HaarBuilder : public FamilyBuilder<float> {
  public:

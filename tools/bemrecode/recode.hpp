@@ -1,0 +1,28 @@
+#pragma once
+
+#include "compress/codec.hpp"
+#include "compress/dense_family.hpp"
+#include "model/body_model.hpp"
+
+namespace bem {
+
+/// An uncompressed family compressed, to a tolerance relative to its own Frobenius norm. `nodes`:
+/// in the order of the archive. `error`: what was reached.
+std::unique_ptr<MatrixFamily> recode(const DenseFamily<float>& family,
+                                     const std::vector<Vec3>& nodes, const CodecOptions& options,
+                                     double& error);
+
+/// A family of a model: h, g, and those of lag 0 by initial component.
+struct NamedFamily {
+  std::string name;
+  std::unique_ptr<MatrixFamily>* family;
+  double* error;  ///< where the model has that of the codec
+};
+std::vector<NamedFamily> families_of(BodyModel& model);
+/// Throws ErrorCode::archive if it is not uncompressed in single precision.
+const DenseFamily<float>& dense_family(const NamedFamily& named);
+
+/// Compresses all matrices of a model, one family after another.
+void recode(BodyModel& model, const CodecOptions& options);
+
+}  // namespace bem
