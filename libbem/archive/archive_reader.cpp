@@ -229,8 +229,8 @@ std::vector<Archive::FamilyPlace> Archive::family_places() const {
     if (of_tractions && !tractions) break;
     const char* matrix = initial_name(iterative_, of_tractions);
     for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i)
-      places.push_back({initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1),
-                        of_tractions});
+      places.push_back(
+          {initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1), of_tractions});
   }
   for (bool of_tractions : {false, true}) {
     if (of_tractions && !tractions) break;

@@ -196,6 +196,7 @@ Directions find_directions(const FloatMatrix& stacked, Eigen::Index count, doubl
     if (basis.cols() > 0) rest -= product(basis, product(transposed, probes));
     const double left = rest.cast<double>().squaredNorm() / kProbes;
     if (left <= kMostLeft * least * least) {
+      if (basis.cols() == 0) return {basis, FloatMatrix(0, stacked.cols()), left};
       Directions out = principal(std::move(basis), product(transposed, stacked), least);
       out.dropped += left;
       return out;

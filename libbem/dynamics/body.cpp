@@ -137,8 +137,7 @@ void Body::check_loadable(const std::vector<int>& nodes) const {
     const std::vector<int>& of_vertex = m.geometry.node_of_vertex;
     const auto vertex = std::find(of_vertex.begin(), of_vertex.end(), node) - of_vertex.begin();
     throw Error(ErrorCode::archive,
-                "the body \"" + spec_.name + "\" is touched at vertex " +
-                    std::to_string(vertex) +
+                "the body \"" + spec_.name + "\" is touched at vertex " + std::to_string(vertex) +
                     ", where its archive has no loads; make it again with --loads all, or with a "
                     "file that has this vertex");
   }

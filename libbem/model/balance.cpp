@@ -152,7 +152,8 @@ void compute_balance(BodyModel& model) {
   Columns body = body_force(model);
   const Eigen::VectorXd scales = body.colwise().norm();
   body = body * scales.cwiseInverse().asDiagonal();
-  // unknowns: H_0^T times the adjoint of u (about), then that of the condition Pi u = 0, stage by stage
+  // unknowns: H_0^T times the adjoint of u (about), then that of the condition Pi u = 0, stage by
+  // stage
   const auto apply = [&](const Columns& x) {
     const auto [forces, product] = adjoint.precondition(system, x.topRows(n * stages));
     Columns out(x.rows(), x.cols());

@@ -46,14 +46,15 @@ struct BodyModel {
   BodyGeometry geometry;
   Discretisation discretisation;
   Loads loads = Loads::all;
-  std::vector<int> loaded_nodes;  ///< of Loads::some: which, ascending; others' columns are zero but for rounding
-  double window = 1;  ///< factor per lag on all weights, see docs/method.md
+  std::vector<int> loaded_nodes;  ///< of Loads::some: which, ascending; others' columns are zero
+                                  ///< but for rounding
+  double window = 1;              ///< factor per lag on all weights, see docs/method.md
   Codec codec = Codec::none;
   Precision precision = Precision::float32;  ///< of uncompressed matrices
 
   std::unique_ptr<MatrixFamily> h, g;                ///< 3N x 3N, lags >= 1; no g: Loads::none
-  std::vector<Eigen::MatrixXd> body_force;             ///< [D_k Q_k], 3N x 6, lags >= 1
-  std::vector<Eigen::MatrixXcd> initial_body_force;    ///< [D_0 Q_0] by initial component, 3N x 6
+  std::vector<Eigen::MatrixXd> body_force;           ///< [D_k Q_k], 3N x 6, lags >= 1
+  std::vector<Eigen::MatrixXcd> initial_body_force;  ///< [D_0 Q_0] by initial component, 3N x 6
   /// Either H_0^{-1} and H_0^{-1} G_0, or H_0 and G_0, which are solved with in every step; the
   /// others are empty.
   std::vector<std::unique_ptr<MatrixFamily>> inverse, traction_response;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/SVD>
 
@@ -112,49 +113,75 @@ double squared_norm(const std::vector<FloatMatrix>& matrices) {
   return sum;
 }
 
-int nearest_node(const std::vector<Vec3>& nodes, int node) {
-  int nearest = node == 0 ? 1 : 0;
-  for (int j = 0; j < static_cast<int>(nodes.size()); ++j)
-    if (j != node && (nodes[j] - nodes[node]).norm() < (nodes[nearest] - nodes[node]).norm())
-      nearest = j;
-  return nearest;
+/// Up to kSamples of some nodes, evenly spread.
+std::vector<int> sample_of(const std::vector<int>& nodes) {
+  constexpr std::size_t kSamples = 24;
+  const std::size_t samples = std::min(nodes.size(), kSamples);
+  std::vector<int> out;
+  for (std::size_t i = 0; i < samples; ++i) out.push_back(nodes[i * nodes.size() / samples]);
+  return out;
+}
+
+/// Rows of some nodes of H_0^{-1} G_0.
+template <class T>
+std::vector<FloatMatrix> response_rows(const DenseMatrix<T>& inverse, const LowRankFamily& g,
+                                       const std::vector<int>& nodes) {
+  DenseMatrix<T> rows(static_cast<Eigen::Index>(3 * nodes.size()), inverse.cols());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    rows.middleRows(static_cast<Eigen::Index>(3 * i), 3) = inverse.middleRows(3 * nodes[i], 3);
+  return times(parts(rows, 0, rows.rows()), g);
+}
+
+/// How little pairs of neighbouring nodes yield to forces, in the mean over some of the `loaded`
+/// nodes (at least two): the least singular value of the response between them.
+template <class T>
+double pair_response(const BodyModel& model, const DenseMatrix<T>& inverse, const LowRankFamily& g,
+                     const std::vector<int>& loaded) {
+  const std::vector<Vec3>& x = model.geometry.nodes.vertices;
+  const auto nearest = [&](int node) {
+    int best = node == loaded[0] ? loaded[1] : loaded[0];
+    for (int j : loaded)
+      if (j != node && (x[j] - x[node]).norm() < (x[best] - x[node]).norm()) best = j;
+    return best;
+  };
+  std::vector<int> nodes;
+  for (int node : sample_of(loaded)) nodes.insert(nodes.end(), {node, nearest(node)});
+  const std::vector<FloatMatrix> response = response_rows(inverse, g, nodes);
+  std::vector<double> pairs;
+  for (std::size_t i = 0; i < nodes.size(); i += 2) {
+    Eigen::MatrixXcd pair = Eigen::MatrixXcd::Zero(6, 6);
+    for (int c = 0; c < 2; ++c)
+      for (std::size_t part = 0; part < response.size(); ++part)
+        pair.middleCols<3>(3 * c) += (part == 0 ? Complex(1) : Complex(0, 1)) *
+                                     response[part]
+                                         .block<6, 3>(static_cast<Eigen::Index>(3 * i),
+                                                      3 * nodes[i + static_cast<std::size_t>(c)])
+                                         .cast<Complex>();
+    pairs.push_back(Eigen::JacobiSVD<Eigen::MatrixXcd>(pair).singularValues()[5]);
+  }
+  const auto middle = pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() / 2);
+  std::nth_element(pairs.begin(), middle, pairs.end());
+  return *middle;
 }
 
 /// Frobenius norm that the errors of H_0^{-1} G_0 are measured by, estimated from some of its rows:
-/// its own, but at most kMostOfPairs times what neighbouring nodes would make of it that are pushed
-/// against each other. In a thin body, whose faces are close, that is tiny beside the bending, and
-/// constraints on both faces need it to stay positive.
+/// its own, but at most a few times what it would be if all nodes yielded as little as pairs of
+/// them. In a thin body, whose faces are close, that is tiny beside the bending, and constraints on
+/// both faces need it to stay positive.
 template <class T>
 double response_scale(const BodyModel& model, const DenseMatrix<T>& inverse,
                       const LowRankFamily& g) {
   constexpr double kMostOfPairs = 100;
-  constexpr int kSamples = 24;
-  const std::vector<Vec3>& x = model.geometry.nodes.vertices;
-  const int n = static_cast<int>(x.size()), samples = std::min(n, kSamples);
-  DenseMatrix<T> rows(6 * samples, inverse.cols());
-  std::vector<int> nodes;
-  for (int i = 0; i < samples; ++i) {
-    nodes.push_back(static_cast<int>(static_cast<long>(i) * n / samples));
-    nodes.push_back(nearest_node(x, nodes.back()));
-  }
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    rows.middleRows(static_cast<Eigen::Index>(3 * i), 3) = inverse.middleRows(3 * nodes[i], 3);
-  const std::vector<FloatMatrix> response = times(parts(rows, 0, rows.rows()), g);
-  std::vector<double> pairs;
-  for (Eigen::Index i = 0; i < samples; ++i) {
-    Eigen::Matrix<Complex, 6, 6> pair = Eigen::Matrix<Complex, 6, 6>::Zero();
-    for (int c = 0; c < 2; ++c)
-      for (std::size_t part = 0; part < response.size(); ++part)
-        pair.middleCols<3>(3 * c) +=
-            (part == 0 ? Complex(1) : Complex(0, 1)) *
-            response[part].block<6, 3>(6 * i, 3 * nodes[2 * i + c]).cast<Complex>();
-    pairs.push_back(Eigen::JacobiSVD<Eigen::MatrixXcd>(pair).singularValues()[5]);
-  }
-  const auto middle = pairs.begin() + samples / 2;
-  std::nth_element(pairs.begin(), middle, pairs.end());
-  const double per_row = squared_norm(response) / static_cast<double>(rows.rows());
-  return std::sqrt(static_cast<double>(inverse.rows())) *
-         std::min(std::sqrt(per_row), kMostOfPairs * *middle);
+  std::vector<int> all(model.nodes());
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<int> sample = sample_of(all);
+  const double own =
+      std::sqrt(squared_norm(response_rows(inverse, g, sample)) * static_cast<double>(all.size()) /
+                static_cast<double>(sample.size()));
+  const std::vector<int>& loaded = model.loads == Loads::some ? model.loaded_nodes : all;
+  if (loaded.size() < 2) return own;
+  const double columns = std::sqrt(3 * static_cast<double>(loaded.size()));
+  return std::min(own, kMostOfPairs * columns * pair_response(model, inverse, g, loaded));
 }
 
 /// Frobenius norm that the errors of the inverse are measured by: its own, but at most a few times

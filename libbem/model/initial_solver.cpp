@@ -42,7 +42,8 @@ template <>
 struct Working<double> {
   static Eigen::MatrixXd from(const Eigen::MatrixXcd& v) { return parts_of(v); }
   static Eigen::MatrixXcd back(const Eigen::MatrixXd& v) { return from_parts(v); }
-  static Eigen::MatrixXd multiply(const MatrixFamily& h, const Eigen::MatrixXd& v, bool transposed) {
+  static Eigen::MatrixXd multiply(const MatrixFamily& h, const Eigen::MatrixXd& v,
+                                  bool transposed) {
     return transposed ? multiply_real_transposed(h, v) : multiply_real(h, v);
   }
   static Eigen::MatrixXd block(const MatrixFamily& h, const std::vector<int>& indices) {
@@ -133,8 +134,7 @@ class IterativeSolver : public InitialSolver {
   }
   Preconditioned precondition_transposed(const Eigen::MatrixXcd& b) const override {
     const ColumnsOf<T> solution = preconditioner_.apply(Working<T>::from(b), true);
-    return {Working<T>::back(solution),
-            Working<T>::back(Working<T>::multiply(h_, solution, true))};
+    return {Working<T>::back(solution), Working<T>::back(Working<T>::multiply(h_, solution, true))};
   }
 
   std::size_t bytes() const override { return h_.bytes(); }

@@ -18,7 +18,8 @@ struct Example {
   std::vector<FloatMatrix> matrices;
   double norm = 0;
 
-  explicit Example(int subdivisions) {
+  /// `range`: how quickly the entries decay.
+  explicit Example(int subdivisions, double range = 1) {
     const std::vector<Vec3> points = icosphere(subdivisions, 1).vertices;
     for (int i : bisection_order(points)) nodes.push_back(points[i]);
     const auto n = static_cast<Eigen::Index>(nodes.size());
@@ -27,7 +28,7 @@ struct Example {
       for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j) {
           const Vec3 r = nodes[j] - nodes[i];
-          const double decay = std::exp(-r.squaredNorm() * (k + 1));
+          const double decay = std::exp(-range * r.squaredNorm() * (k + 1));
           const Mat3 block = decay * (Mat3::Identity() + r * r.transpose()) +
                              (k == 0 && i == j ? 5.0 : 0.0) * Mat3::Identity();
           m.block<3, 3>(3 * i, 3 * j) = block.cast<float>();
@@ -38,8 +39,9 @@ struct Example {
     norm = std::sqrt(norm);
   }
 
-  std::unique_ptr<MatrixFamily> compress(double tolerance, double* error = nullptr) const {
-    const std::vector<Slab> partition = make_partition(nodes, {20, 64, 2.0});
+  std::unique_ptr<MatrixFamily> compress(double tolerance, double* error = nullptr,
+                                         const PartitionOptions& options = {20, 64, 2.0}) const {
+    const std::vector<Slab> partition = make_partition(nodes, options);
     const Slab& middle = partition[partition.size() / 2];
     LowRankBuilder builder(
         partition, kMatrices,
@@ -85,6 +87,20 @@ Eigen::MatrixXd products(const MatrixFamily& family, const Eigen::MatrixXd& x, i
 }
 
 }  // namespace
+
+TEST_CASE("large blocks in which nothing counts, a little, or much meet the tolerance") {
+  for (const double range : {1.0, 8.0, 60.0}) {
+    const Example example(3, range);
+    for (const double tolerance : {1e-2, 1e-4, 1e-5}) {
+      CAPTURE(range, tolerance);
+      double claimed = 0;
+      const auto family = example.compress(tolerance, &claimed, {});
+      const double error = example.error_of(*family);
+      CHECK(error < 2 * tolerance);
+      CHECK(error == Approx(claimed).epsilon(0.3));
+    }
+  }
+}
 
 TEST_CASE("the error of the matrices is about the tolerance, and the builder knows it") {
   std::size_t last = 0;
