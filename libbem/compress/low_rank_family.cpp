@@ -83,20 +83,24 @@ std::size_t LowRankFamily::bytes() const {
   return sum;
 }
 
-void LowRankFamily::analyse(const double* x, float* coefficients) const {
-  const FloatVector single =
-      Eigen::Map<const Eigen::VectorXd>(x, static_cast<Eigen::Index>(size_)).cast<float>();
+void LowRankFamily::analyse_columns(const double* x, Eigen::Index count,
+                                    float* coefficients) const {
+  const FloatMatrix single =
+      Eigen::Map<const Eigen::MatrixXd>(x, static_cast<Eigen::Index>(size_), count).cast<float>();
   parallel_for(slabs_.size(), [&](std::size_t s) {
     const LowRankSlab& slab = slabs_[s];
     for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
       const LowRankBlock& block = slab.blocks[b];
       if (block.plain) continue;
       const Place& p = places_[s][b];
-      float* out = coefficients + p.coefficients;
-      std::fill_n(out, block.input_rank(), 0.0F);
-      multiply_layers(block.input_basis, slab.analysis.data() + p.analysis,
-                      single.data() + block.column_begin, out);
-      for (int i = 0; i < block.input_rank(); ++i) out[i] *= slab.input_scales[p.input_scales + i];
+      for (Eigen::Index c = 0; c < count; ++c) {
+        float* out = coefficients + static_cast<std::size_t>(c) * coefficients_ + p.coefficients;
+        std::fill_n(out, block.input_rank(), 0.0F);
+        multiply_layers(block.input_basis, slab.analysis.data() + p.analysis,
+                        single.col(c).data() + block.column_begin, out);
+        for (int i = 0; i < block.input_rank(); ++i)
+          out[i] *= slab.input_scales[p.input_scales + i];
+      }
     }
   });
 }

@@ -49,7 +49,12 @@ class LowRankFamily : public MatrixFamily {
 
   /// Coefficients in the blocks' input bases, block by block.
   std::size_t coefficients() const override { return coefficients_; }
-  void analyse(const double* x, float* coefficients) const override;
+  void analyse(const double* x, float* coefficients) const override {
+    analyse_columns(x, 1, coefficients);
+  }
+  void analyse_columns(const Eigen::MatrixXd& x, Eigen::MatrixXf& coefficients) const override {
+    analyse_columns(x.data(), x.cols(), coefficients.data());
+  }
   void multiply_add(const std::vector<FamilyTerm>& terms,
                     const std::vector<double*>& outputs) const override;
   void multiply_add(const std::vector<SparseTerm>& terms,
@@ -75,6 +80,7 @@ class LowRankFamily : public MatrixFamily {
     std::vector<std::size_t> couplings;  ///< by matrix
   };
   class SlabProduct;
+  void analyse_columns(const double* x, Eigen::Index count, float* coefficients) const;
 
   /// Parts of a block as matrices: X = Q C P with all scales in C, or X = C if it is plain.
   FloatMatrix coupling(std::size_t slab, std::size_t block, int matrix) const;

@@ -27,8 +27,7 @@ void LagHistory::push(const Eigen::MatrixXd& stages) {
   newest_ = (newest_ + ring_.size() - 1) % ring_.size();
   ring_[newest_].noalias() = stages * right_;
   zero_[newest_] = stages.isZero(0);
-  for (Eigen::Index m = 0; family_ && m < right_.cols(); ++m)
-    family_->analyse(ring_[newest_].col(m).data(), coefficients_[newest_].col(m).data());
+  if (family_) family_->analyse_columns(ring_[newest_], coefficients_[newest_]);
 }
 
 ElasticSystem::ElasticSystem(const BodyModel& model, double window)

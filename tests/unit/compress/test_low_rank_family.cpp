@@ -78,8 +78,8 @@ Eigen::MatrixXd products(const MatrixFamily& family, const Eigen::MatrixXd& x, i
   std::vector<FamilyTerm> terms;
   std::vector<double*> out;
   for (int o = 0; o < outputs; ++o) out.push_back(y.col(o).data());
+  family.analyse_columns(x, coefficients);
   for (int c = 0; c < static_cast<int>(x.cols()); ++c) {
-    family.analyse(x.col(c).data(), coefficients.col(c).data());
     terms.push_back({c % kMatrices, x.col(c).data(), coefficients.col(c).data(), c % outputs, 0.5});
   }
   family.multiply_add(terms, out);
