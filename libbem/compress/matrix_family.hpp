@@ -51,7 +51,8 @@ class MatrixFamily {
   virtual void analyse(const double* /*x*/, float* /*coefficients*/) const {}
   /// The same for the columns of x, whose coefficients are columns, too; reads what it needs once.
   virtual void analyse_columns(const Eigen::MatrixXd& x, Eigen::MatrixXf& coefficients) const {
-    for (Eigen::Index c = 0; c < x.cols(); ++c) analyse(x.col(c).data(), coefficients.col(c).data());
+    for (Eigen::Index c = 0; c < x.cols(); ++c)
+      analyse(x.col(c).data(), coefficients.col(c).data());
   }
 
   /// outputs[t.output] += t.factor A_{t.matrix} t.input for all terms.
