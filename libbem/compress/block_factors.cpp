@@ -102,7 +102,7 @@ struct PivotedCholesky {
     Eigen::Index rank = 0, block = 0;  // columns so far, and those that `gram` is free of
     for (; rank < m && left.sum() > cut; ++rank) {
       if (rank == block + kBlock) {
-        const Eigen::MatrixXd part = -factor.middleCols(block, kBlock), turned = part.transpose();
+        const Eigen::MatrixXd part = factor.middleCols(block, kBlock), turned = part.transpose();
         gemm<double>(static_cast<int>(m), static_cast<int>(m), static_cast<int>(kBlock), -1.0,
                      part.data(), static_cast<int>(m), turned.data(), static_cast<int>(kBlock),
                      gram.data(), static_cast<int>(m));

@@ -1,44 +1,21 @@
 #include "base/parallel.hpp"
 #include "compress/haar_builder.hpp"
-#include "mesh/bisection.hpp"
 #include "mesh/shapes.hpp"
+#include "support/matrix_examples.hpp"
 
 #include <functional>
 
 #include <catch2/catch.hpp>
 
 using namespace bem;
+using namespace bem_test;
 
 namespace {
 
 using FloatMatrix = Eigen::MatrixXf;
 
-constexpr int kMatrices = 3;
-
-/// Smooth functions of distance and direction, of other ranges from matrix to matrix.
-struct Example {
-  std::vector<Vec3> nodes;
-  std::vector<FloatMatrix> matrices;
-  double norm = 0;
-
-  explicit Example(const std::vector<Vec3>& points) {
-    for (int i : bisection_order(points)) nodes.push_back(points[i]);
-    const auto n = static_cast<Eigen::Index>(nodes.size());
-    for (int k = 0; k < kMatrices; ++k) {
-      FloatMatrix m(3 * n, 3 * n);
-      for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j) {
-          const Vec3 r = nodes[j] - nodes[i];
-          const double decay = std::exp(-r.squaredNorm() * (k + 1));
-          const Mat3 block = decay * (Mat3::Identity() + r * r.transpose()) +
-                             (k == 0 && i == j ? 5.0 : 0.0) * Mat3::Identity();
-          m.block<3, 3>(3 * i, 3 * j) = block.cast<float>();
-        }
-      norm += m.cast<double>().squaredNorm();
-      matrices.push_back(std::move(m));
-    }
-    norm = std::sqrt(norm);
-  }
+struct Example : MatrixExample {
+  using MatrixExample::MatrixExample;
 
   std::size_t entries() const { return kMatrices * 9 * nodes.size() * nodes.size(); }
 
@@ -57,13 +34,6 @@ struct Example {
     auto family = builder.finish();
     if (error) *error = builder.error();
     return family;
-  }
-
-  double error_of(const MatrixFamily& family) const {
-    double sum = 0;
-    for (int k = 0; k < kMatrices; ++k)
-      sum += (full_matrix(family, k) - matrices[k].cast<double>()).squaredNorm();
-    return std::sqrt(sum) / norm;
   }
 };
 
@@ -115,20 +85,6 @@ std::vector<double> coefficients_by_definition(const Example& example) {
       }
   std::sort(all.begin(), all.end(), std::greater<>());
   return all;
-}
-
-Eigen::MatrixXd products(const MatrixFamily& family, const Eigen::MatrixXd& x, int outputs) {
-  Eigen::MatrixXf coefficients(static_cast<Eigen::Index>(family.coefficients()), x.cols());
-  Eigen::MatrixXd y = Eigen::MatrixXd::Ones(x.rows(), outputs);
-  std::vector<FamilyTerm> terms;
-  std::vector<double*> out;
-  for (int o = 0; o < outputs; ++o) out.push_back(y.col(o).data());
-  for (int c = 0; c < static_cast<int>(x.cols()); ++c) {
-    family.analyse(x.col(c).data(), coefficients.col(c).data());
-    terms.push_back({c % kMatrices, x.col(c).data(), coefficients.col(c).data(), c % outputs, 0.5});
-  }
-  family.multiply_add(terms, out);
-  return y;
 }
 
 }  // namespace

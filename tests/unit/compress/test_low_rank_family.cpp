@@ -1,43 +1,18 @@
 #include "base/parallel.hpp"
 #include "compress/low_rank_builder.hpp"
-#include "mesh/bisection.hpp"
 #include "mesh/shapes.hpp"
+#include "support/matrix_examples.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace bem;
+using namespace bem_test;
 
 namespace {
 
-constexpr int kMatrices = 3;
-
-/// Matrices with the kind of entries that ours have: smooth functions of distance and direction, of
-/// other ranges from lag to lag, with large own blocks in the first.
-struct Example {
-  std::vector<Vec3> nodes;
-  std::vector<FloatMatrix> matrices;
-  double norm = 0;
-
-  /// `range`: how quickly the entries decay.
-  explicit Example(int subdivisions, double range = 1) {
-    const std::vector<Vec3> points = icosphere(subdivisions, 1).vertices;
-    for (int i : bisection_order(points)) nodes.push_back(points[i]);
-    const auto n = static_cast<Eigen::Index>(nodes.size());
-    for (int k = 0; k < kMatrices; ++k) {
-      FloatMatrix m(3 * n, 3 * n);
-      for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j) {
-          const Vec3 r = nodes[j] - nodes[i];
-          const double decay = std::exp(-range * r.squaredNorm() * (k + 1));
-          const Mat3 block = decay * (Mat3::Identity() + r * r.transpose()) +
-                             (k == 0 && i == j ? 5.0 : 0.0) * Mat3::Identity();
-          m.block<3, 3>(3 * i, 3 * j) = block.cast<float>();
-        }
-      norm += m.cast<double>().squaredNorm();
-      matrices.push_back(std::move(m));
-    }
-    norm = std::sqrt(norm);
-  }
+struct Example : MatrixExample {
+  explicit Example(int subdivisions, double range = 1)
+      : MatrixExample(icosphere(subdivisions, 1).vertices, range) {}
 
   std::unique_ptr<MatrixFamily> compress(double tolerance, double* error = nullptr,
                                          const PartitionOptions& options = {20, 64, 2.0}) const {
@@ -58,32 +33,11 @@ struct Example {
                         m.cols(), Eigen::OuterStride<>(m.rows()));
     return rows;
   }
-
-  double error_of(const MatrixFamily& family) const {
-    double sum = 0;
-    for (int k = 0; k < kMatrices; ++k)
-      sum += (full_matrix(family, k) - matrices[k].cast<double>()).squaredNorm();
-    return std::sqrt(sum) / norm;
-  }
 };
 
 const Example& sphere() {
   static const Example example(3);
   return example;
-}
-
-Eigen::MatrixXd products(const MatrixFamily& family, const Eigen::MatrixXd& x, int outputs) {
-  Eigen::MatrixXf coefficients(static_cast<Eigen::Index>(family.coefficients()), x.cols());
-  Eigen::MatrixXd y = Eigen::MatrixXd::Ones(x.rows(), outputs);
-  std::vector<FamilyTerm> terms;
-  std::vector<double*> out;
-  for (int o = 0; o < outputs; ++o) out.push_back(y.col(o).data());
-  family.analyse_columns(x, coefficients);
-  for (int c = 0; c < static_cast<int>(x.cols()); ++c) {
-    terms.push_back({c % kMatrices, x.col(c).data(), coefficients.col(c).data(), c % outputs, 0.5});
-  }
-  family.multiply_add(terms, out);
-  return y;
 }
 
 }  // namespace
