@@ -10,7 +10,15 @@ namespace bem {
 
 /// Attribute "model" of the root.
 inline const char* model_name(ModelKind kind) {
-  return kind == ModelKind::rigid ? "rigid" : "dynamic";
+  switch (kind) {
+    case ModelKind::rigid:
+      return "rigid";
+    case ModelKind::quasistatic:
+      return "static";
+    case ModelKind::dynamic:
+      break;
+  }
+  return "dynamic";
 }
 
 /// Attribute "inverse" of the root.

@@ -195,7 +195,7 @@ double Archive::matrix_bytes(bool tractions) const {
 }
 
 std::size_t Archive::history_coefficients() const {
-  if (codec_ == Codec::none) return 0;
+  if (codec_ == Codec::none || discretisation_.history_length == 0) return 0;
   if (codec_ == Codec::haar) return unknowns();
   const Hdf5Dims dims = file_.dims(lags_path("h") + "/input_scales");
   return dims.empty() ? 0 : dims[0];

@@ -22,7 +22,7 @@ Archive::Archive(const std::string& path)
   if (file_.int_attribute("/", "format_version") != user_block_.version)
     refuse("its format version is not that of its header");
   read_kind();
-  if (kind_ == ModelKind::dynamic) read_storage();
+  if (kind_ != ModelKind::rigid) read_storage();
   read_geometry();
   read_material();
   read_provenance();
@@ -33,13 +33,14 @@ Archive::Archive(const std::string& path)
 
 void Archive::read_kind() {
   const std::string name = file_.string_attribute("/", "model");
-  for (ModelKind kind : {ModelKind::dynamic, ModelKind::rigid})
+  for (ModelKind kind : {ModelKind::dynamic, ModelKind::quasistatic, ModelKind::rigid})
     if (name == model_name(kind)) {
       kind_ = kind;
       return;
     }
   refuse("has the model \"" + name +
-         "\", but this version of the program understands \"dynamic\" and \"rigid\" only");
+         "\", but this version of the program understands \"dynamic\", \"static\" and \"rigid\" "
+         "only");
 }
 
 /// What is stored, and how. Archives without "inverse" or "loads" have everything.
@@ -134,6 +135,8 @@ void Archive::read_geometry() {
   g.mass.volume = file_.double_attribute("/body", "volume");
   g.mass.mass = file_.double_attribute("/body", "mass");
   g.extent = file_.double_attribute("/body", "extent");
+  if (file_.has_attribute("/body", "corner_angle_deg"))
+    g.corner_angle_deg = file_.double_attribute("/body", "corner_angle_deg");
   if (loads_ != Loads::some) return;
   const Hdf5Dims dims = file_.dims(kLoadedNodesPath);
   loaded_nodes_ =
@@ -155,9 +158,12 @@ void Archive::read_material() {
 
 void Archive::read_discretisation() {
   Discretisation& d = discretisation_;
-  d.dt = file_.double_attribute("/scheme", "dt");
+  const bool dynamic = kind_ == ModelKind::dynamic;
+  d.dt = dynamic ? file_.double_attribute("/scheme", "dt")
+                 : quasistatic_time_step(geometry_, d.material);
   const std::int64_t history = file_.int_attribute("/scheme", "history_length");
-  if (history < 1 || history > 1000000) refuse("has an impossible length of the history");
+  if (dynamic ? history < 1 || history > 1000000 : history != 0)
+    refuse("has an impossible length of the history");
   d.history_length = static_cast<int>(history);
   d.quadrature_tolerance = file_.double_attribute("/scheme", "quadrature_tolerance");
   window_ = file_.double_attribute("/scheme", "window");
@@ -169,6 +175,7 @@ void Archive::read_discretisation() {
   } catch (const Error& e) {
     refuse(e.what());
   }
+  if (!dynamic && !d.scheme.is_multistep()) refuse("is static and has a scheme with stages");
   check_scheme();
 }
 
@@ -233,7 +240,7 @@ std::vector<Archive::FamilyPlace> Archive::family_places() const {
           {initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1), of_tractions});
   }
   for (bool of_tractions : {false, true}) {
-    if (of_tractions && !tractions) break;
+    if (discretisation_.history_length == 0 || (of_tractions && !tractions)) break;
     const char* matrix = of_tractions ? "g" : "h";
     places.push_back(
         {lags_path(matrix),
@@ -255,7 +262,8 @@ BodyForce Archive::load_body_force() const {
   const std::size_t n = unknowns(), components = lag_components();
   const auto lags = static_cast<std::size_t>(discretisation_.history_length);
   const std::string path = std::string(kBodyForcePath) + "/lags";
-  if (file_.dims(path) != Hdf5Dims{lags, components, n, 6}) refuse(path + " has wrong extents");
+  if (lags > 0 && file_.dims(path) != Hdf5Dims{lags, components, n, 6})
+    refuse(path + " has wrong extents");
   RowMajor columns(static_cast<Eigen::Index>(n), 6);
   for (std::size_t i = 0; i < lags * components; ++i) {
     file_.read_block(path, {i / components, i % components, 0, 0}, {1, 1, n, 6}, columns.data());

@@ -99,6 +99,8 @@ void write_geometry(Hdf5File& file, const BodyGeometry& g) {
   file.set_attribute("/body", "volume", g.mass.volume);
   file.set_attribute("/body", "mass", g.mass.mass);
   file.set_attribute("/body", "extent", g.extent);
+  if (g.corner_angle_deg)
+    file.set_attribute("/body", "corner_angle_deg", *g.corner_angle_deg);
 }
 
 void write_material(Hdf5File& file, const Material& m) {
@@ -120,7 +122,7 @@ void write_scheme(Hdf5File& file, const BodyModel& model) {
   file.create_group("/scheme");
   file.set_attribute("/scheme", "name", scheme.name());
   file.set_attribute("/scheme", "stages", scheme.stages());
-  file.set_attribute("/scheme", "dt", d.dt);
+  if (model.kind == ModelKind::dynamic) file.set_attribute("/scheme", "dt", d.dt);
   file.set_attribute("/scheme", "history_length", d.history_length);
   file.set_attribute("/scheme", "window", model.window);
   file.set_attribute("/scheme", "quadrature_tolerance", d.quadrature_tolerance);
@@ -223,7 +225,7 @@ void write_body_force(Hdf5File& file, const BodyModel& model) {
   const auto lags = static_cast<std::size_t>(model.discretisation.history_length);
   const auto components = static_cast<std::size_t>(model.components());
   const std::string path = std::string(kBodyForcePath) + "/lags";
-  file.create_dataset(path, Hdf5Type::float64, {lags, components, unknowns, 6});
+  if (lags > 0) file.create_dataset(path, Hdf5Type::float64, {lags, components, unknowns, 6});
   for (std::size_t i = 0; i < model.body_force.size(); ++i) {
     const RowMajor columns = model.body_force[i];
     file.write_block(path, {i / components, i % components, 0, 0}, {1, 1, unknowns, 6},
@@ -258,8 +260,8 @@ void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& prog
                  lag_paths(name, model.discretisation.history_length, model.components()), family);
     file.set_attribute(lags_path(name), "unit", unit);
   };
-  write_lags("h", *model.h, "1");
-  if (tractions) write_lags("g", *model.g, "m/Pa");
+  if (model.h) write_lags("h", *model.h, "1");
+  if (model.g) write_lags("g", *model.g, "m/Pa");
 }
 
 void check_complete(const BodyModel& model) {
@@ -267,7 +269,7 @@ void check_complete(const BodyModel& model) {
                     static_cast<std::size_t>(model.components());
   const std::size_t initial = model.discretisation.scheme.initial_components().size();
   const auto is_whole = [&](const std::unique_ptr<MatrixFamily>& family) {
-    return family && family->count() == static_cast<int>(lags);
+    return (family ? family->count() : 0) == static_cast<int>(lags);
   };
   const bool iterative = model.is_iterative(), tractions = model.loads != Loads::none;
   const auto& h = iterative ? model.initial_h : model.inverse;
@@ -316,7 +318,8 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
   const double bytes =
       rigid ? overhead_bytes(model.geometry, 0)
             : matrix_bytes(model) + table_bytes(model) +
-                  overhead_bytes(model.geometry, 2.0 * static_cast<double>(model.h->count()));
+                  overhead_bytes(model.geometry, 2.0 * model.discretisation.history_length *
+                                                     model.components());
   check_archive_target(path, force, bytes);
   PendingFile pending(path);
   Hdf5CreateOptions options;

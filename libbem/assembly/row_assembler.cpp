@@ -151,8 +151,10 @@ std::vector<Eigen::Matrix3Xd> RowAssembler::assemble_loads(int vertex,
     });
     for (int lane = 0; lane < layout().count(); ++lane) {
       const auto sum = [&](int first, int step, int offset) {
-        double total = 0;  // over the shape functions: they add up to one
-        for (int a = 0; a < 3; ++a) total += work.sums[(first + step * a + offset) * stride + lane];
+        double total = 0;  // over all shape functions, which add up to one, or that of a corner
+        for (int a = 0; a < 3; ++a)
+          if (load.corner.value_or(a) == a)
+            total += work.sums[(first + step * a + offset) * stride + lane];
         return total;
       };
       Mat3 block = sum(kSumA, 1, 0) * Mat3::Identity();

@@ -5,6 +5,8 @@
 #include "base/material.hpp"
 #include "kernels/radial_table.hpp"
 
+#include <optional>
+
 namespace bem {
 
 /// One block row of all lag matrices: everything that collocation vertex i contributes, lane by
@@ -26,7 +28,7 @@ struct Discretisation {
   Material material;
   Scheme scheme = Scheme::radau2();
   double dt = 0;           ///< [s]
-  int history_length = 0;  ///< number of past steps kept, >= 1
+  int history_length = 0;  ///< number of past steps kept; multistep methods: >= 0, others >= 1
   double quadrature_tolerance = 1e-6;
 };
 
@@ -56,10 +58,12 @@ class RowAssembler {
   double assemble(int vertex, bool fix_translation, Workspace& workspace,
                   BlockRow<float>& row) const;
 
-  /// A traction that is constant on a triangle, for several load cases: 3 x cases [Pa].
+  /// A traction on a triangle for several load cases: 3 x cases [Pa], constant or times the linear
+  /// shape function of one corner (0, 1, 2).
   struct PanelLoad {
     int triangle;
     Eigen::Matrix3Xd traction;
+    std::optional<int> corner = std::nullopt;
   };
   /// Row of the load columns sum_T int u* dGamma p_T at every lane: out[lane] is 3 x cases. The
   /// tractions are exact, with jumps from triangle to triangle.

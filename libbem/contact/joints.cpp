@@ -4,6 +4,7 @@
 #include "contact/closest_points.hpp"
 #include "dynamics/rotation.hpp"
 #include "dynamics/selection.hpp"
+#include "mesh/corners.hpp"
 #include "mesh/describe.hpp"
 #include "scene/location.hpp"
 #include "scene/motion.hpp"
@@ -82,8 +83,10 @@ class Planner {
           bool& anchored = nodes[end->body].try_emplace(end->nodes[i], false).first->second;
           anchored = anchored || joint.prescribed;
         }
-    for (std::size_t b = 0; b < nodes.size(); ++b)
+    for (std::size_t b = 0; b < nodes.size(); ++b) {
       for (const auto& [node, anchored] : nodes[b]) plan_.nodes[b].push_back({node, anchored});
+      if (geometries_[b]->corner_angle_deg) choose_triangles(*geometries_[b], plan_.nodes[b]);
+    }
     return std::move(plan_);
   }
 
@@ -110,6 +113,29 @@ class Planner {
       joint.place = placed_[b][node];
       plan_.joints.push_back(joint);
       groups_.unite({b, node}, {-1, 0});
+    }
+  }
+
+  /// At sharp edges tractions act on those sides that have a triangle all of whose corners are held
+  /// or joined.
+  static void choose_triangles(const BodyGeometry& g, std::vector<JointNode>& nodes) {
+    const CornerSectors corners(g.nodes, *g.corner_angle_deg);
+    std::vector<char> chosen(g.nodes.vertices.size(), 0);
+    for (const JointNode& n : nodes) chosen[n.node] = 1;
+    const auto is_whole = [&](int t) {
+      const Triangle& triangle = g.nodes.triangles[t];
+      return std::all_of(triangle.begin(), triangle.end(), [&](int v) { return chosen[v] != 0; });
+    };
+    for (JointNode& n : nodes) {
+      const auto& sectors = corners.sectors(n.node);
+      std::size_t taken = 0;
+      for (const std::vector<int>& sector : sectors)
+        if (std::any_of(sector.begin(), sector.end(), is_whole)) {
+          n.triangles.insert(n.triangles.end(), sector.begin(), sector.end());
+          ++taken;
+        }
+      if (taken == sectors.size()) n.triangles.clear();  // all of them
+      std::sort(n.triangles.begin(), n.triangles.end());
     }
   }
 

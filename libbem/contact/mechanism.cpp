@@ -162,6 +162,7 @@ Vec3 Mechanism::impulse_from_world() const {
     const Joint& joint = plan_->joints[joints_[j]];
     if (!joint.to_world()) continue;
     const Body& body = (*all_bodies_)[joint.a.body];
+    if (!body.has_inertia()) continue;
     std::vector<Vec3> forces;
     for (int a = 0; a < stages_; ++a)
       forces.emplace_back(body.force_rotation(a) *

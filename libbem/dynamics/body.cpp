@@ -19,18 +19,40 @@ InitialMotion initial_motion(const BodySpec& spec, const BodyModel& model, const
   return m;
 }
 
-/// Centroids of the hat functions of some nodes: int x phi_i / int phi_i.
+/// Centroids of the hat functions of some nodes on their triangles: int x phi_i / int phi_i.
 std::vector<Vec3> hat_centroids(const TriangleMesh& mesh, const std::vector<JointNode>& nodes) {
+  const auto moment = [&mesh](const Triangle& t, int v) {  // int x phi_v
+    return Vec3(triangle_area(mesh, t) / 12 *
+                (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]] +
+                 mesh.vertices[v]));
+  };
   std::vector<Vec3> moments(mesh.vertices.size(), Vec3::Zero());
-  for (const Triangle& t : mesh.triangles) {
-    const double twelfth = triangle_area(mesh, t) / 12;
-    const Vec3 sum = mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]];
-    for (int v : t) moments[v] += twelfth * (sum + mesh.vertices[v]);
-  }
+  for (const Triangle& t : mesh.triangles)
+    for (int v : t) moments[v] += moment(t, v);
   const std::vector<double> areas = vertex_areas(mesh);
   std::vector<Vec3> out;
-  for (const JointNode& n : nodes) out.emplace_back(moments[n.node] / areas[n.node]);
+  for (const JointNode& n : nodes) {
+    Vec3 sum = moments[n.node];
+    double area = areas[n.node];
+    if (!n.triangles.empty()) {
+      sum.setZero();
+      area = 0;
+      for (int t : n.triangles) {
+        sum += moment(mesh.triangles[t], n.node);
+        area += triangle_area(mesh, mesh.triangles[t]) / 3;
+      }
+    }
+    out.emplace_back(sum / area);
+  }
   return out;
+}
+
+/// How far a frame without inertia yields to forces: so much more than the body deforms that next to
+/// nothing is left of them in a step [s^2].
+double equilibrium_mobility(const BodyModel& model) {
+  constexpr double kTimesDeformation = 1e6;
+  const double stiffness = model.discretisation.material.shear_modulus * model.geometry.extent;
+  return kTimesDeformation * model.geometry.mass.mass / stiffness;
 }
 
 std::vector<int> node_numbers(const std::vector<JointNode>& nodes) {
@@ -43,7 +65,7 @@ std::vector<int> node_numbers(const std::vector<JointNode>& nodes) {
 }  // namespace
 
 Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec3& gravity,
-           std::vector<JointNode> joint_nodes)
+           std::vector<JointNode> joint_nodes, std::shared_ptr<const CornerLoads> corners)
     : spec_(spec),
       shared_(shared),
       dt_(dt),
@@ -55,7 +77,8 @@ Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec
       joint_nodes_(std::move(joint_nodes)),
       anchor_levers_(hat_centroids(shared.model->geometry.nodes, joint_nodes_)) {
   if (shared_.system)
-    elastic_.emplace(*shared_.system, shared_.tractions.get(), node_numbers(joint_nodes_));
+    elastic_.emplace(*shared_.system, shared_.tractions.get(), node_numbers(joint_nodes_),
+                     std::move(corners));
   for (const TractionSpec& t : spec_.tractions) {
     PrescribedLoad p{{t, shared_.model->geometry, frame_.rotation()}, {}, {}};
     p.stages = Eigen::MatrixXd::Zero(p.load.inputs(), stage_count_);
@@ -116,6 +139,7 @@ void Body::set_lean(const std::vector<Vec3>& turns) {
 
 void Body::begin_step(SpectralState free, bool held, const std::optional<Holder>& holder) {
   if (elastic_) elastic_->begin_step(std::move(free), leak(held));
+  if (!has_inertia()) frame_.set_mobility(holder ? equilibrium_mobility(model()) : 0);
   set_drag(holder);
   contact_nodes_.clear();
   contact_forces_.resize(0);
@@ -243,6 +267,7 @@ double Body::update() {
 
 Impulses Body::impulses() const {
   Impulses out;
+  if (!has_inertia()) return out;
   out.gravity = frame_.mass() * dt_ * frame_.gravity();
   std::vector<Vec3> loads(stage_count_, Vec3::Zero());
   for (int a = 0; a < stage_count_; ++a)
@@ -268,7 +293,7 @@ Vec3 Body::contact_position(std::size_t i) const {
 /// Way of the frame at the end of the step by a unit acceleration of contact forces [s^2].
 double Body::contact_gain() const {
   if (is_rigid()) return dt_ * dt_ * stage_times_[stage_count_ - 1];
-  const StageMatrix& gains =
+  const StageMatrix gains =
       drag_.rate > 0 ? elastic_->offset_gain() : frame_.position_by_acceleration();
   return gains.row(stage_count_ - 1).sum();
 }
@@ -302,7 +327,7 @@ Eigen::MatrixXd Body::compliance(Group rows, int row_stage, Group columns, int l
   };
   const int stage = rows == Group::contact ? stage_count_ - 1 : row_stage;
   // position of the frame by a unit acceleration
-  const StageMatrix& gains =
+  const StageMatrix gains =
       drag_.rate > 0 ? elastic_->offset_gain() : frame_.position_by_acceleration();
   double gain = 0;
   if (columns == Group::joint)

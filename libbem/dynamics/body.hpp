@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dynamics/corner_loads.hpp"
 #include "dynamics/elastic_part.hpp"
 #include "dynamics/impulses.hpp"
 #include "dynamics/rigid_frame.hpp"
@@ -13,16 +14,8 @@ namespace bem {
 struct SharedModel {
   std::shared_ptr<const BodyModel> model;
   std::shared_ptr<const ElasticSystem> system;
-  std::shared_ptr<const RowAssembler> assembler;    ///< if some body carries prescribed loads
+  std::shared_ptr<const RowAssembler> assembler;  ///< for prescribed loads and those of corners
   std::shared_ptr<const NodalTractions> tractions;  ///< of the nodes that constraints may act on
-};
-
-/// A node that fixed vertices, handles or joints act on.
-struct JointNode {
-  int node = 0;
-  /// Held from outside by tractions spread over the surface around the node; otherwise the force
-  /// acts at the point itself, so that what two bodies exert on each other cancels exactly.
-  bool anchored = false;
 };
 
 /// What holds a body in the world: the rigid motion since the start that the prescribed places of
@@ -41,11 +34,15 @@ class Body {
  public:
   using Group = ElasticPart::Group;
 
-  /// `joint_nodes` ascending by node.
+  /// `joint_nodes` ascending by node; `corners`: those of them that act on some of the triangles
+  /// around them, may be null.
   Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec3& gravity,
-       std::vector<JointNode> joint_nodes);
+       std::vector<JointNode> joint_nodes, std::shared_ptr<const CornerLoads> corners = nullptr);
 
   bool is_rigid() const { return !elastic_; }
+  /// A quasi-static body in a stationary frame has none: it is in equilibrium where joints hold it,
+  /// and else stays where it is but for its deformation.
+  bool has_inertia() const { return is_rigid() || !is_quasistatic() || !spec_.is_stationary(); }
   int stages() const { return stage_count_; }
   const StageVector& stage_times() const { return stage_times_; }  ///< in units of dt
 
@@ -124,6 +121,7 @@ class Body {
   Impulses impulses() const;
 
  private:
+  bool is_quasistatic() const { return model().kind == ModelKind::quasistatic; }
   void check_loadable(const std::vector<int>& nodes) const;
   double stage_time(int stage) const;
   FrameLoads frame_loads() const;

@@ -15,17 +15,24 @@ Eigen::MatrixXd rigid_columns(const std::vector<Vec3>& x, const std::vector<int>
   return m;
 }
 
+/// Accelerations without history are the balanced ones: the frame offset stays zero.
+double time_step_of_offset(const BodyModel& model) {
+  return model.kind == ModelKind::dynamic ? model.discretisation.dt : 0;
+}
+
 }  // namespace
 
 ElasticPart::ElasticPart(const ElasticSystem& system, const NodalTractions* tractions,
-                         std::vector<int> joint_nodes)
+                         std::vector<int> joint_nodes, std::shared_ptr<const CornerLoads> corners)
     : system_(system),
       tractions_(tractions),
       areas_(vertex_areas(system.model().geometry.nodes)),
       joint_nodes_(std::move(joint_nodes)),
-      offset_(system.scheme(), system.model().discretisation.dt) {
+      corners_(std::move(corners)),
+      offset_(system.scheme(), time_step_of_offset(system.model())) {
   displacement_history_ = system.make_displacement_history();
   acceleration_history_ = system.make_history(6);
+  if (corners_) corner_history_ = system.make_history(corners_->inputs());
   traction_history_ = NodalHistory(system.scheme(), system.model().discretisation.history_length,
                                    system.model().window);
 }
@@ -38,6 +45,7 @@ Eigen::MatrixXd ElasticPart::history_sums(const std::vector<PrescribedLoad>& loa
   for (const PrescribedLoad& p : loads)
     system_.add_input_history(p.load.columns(), p.history, sums);
   if (tractions_) tractions_->add_history(traction_history_, sums);
+  if (corners_) system_.add_input_history(corners_->columns, corner_history_, sums);
   return sums;
 }
 
@@ -49,7 +57,7 @@ void ElasticPart::begin_step(SpectralState free, double leak) {
     joint_joint_.clear();
     for (int a = 0; a < system_.scheme().stages(); ++a)
       for (int b = 0; b < system_.scheme().stages(); ++b)
-        joint_joint_.push_back(response(joint_nodes_, a, joint_nodes_, pattern(Group::joint, b)));
+        joint_joint_.push_back(response(Group::joint, a, Group::joint, pattern(Group::joint, b)));
   }
   if (other_gain) compliance_nodes_.clear();
   contact_nodes_.clear();
@@ -61,12 +69,13 @@ void ElasticPart::set_contact_nodes(const std::vector<int>& nodes) {
   compliance_nodes_ = nodes;
   const int stages = system_.scheme().stages(), last = stages - 1;
   const StageVector constant = pattern(Group::contact, 0);
-  contact_contact_ = response(nodes, last, nodes, constant);
+  contact_contact_ = response(Group::contact, last, Group::contact, constant);
   joint_contact_.clear();
   contact_joint_.clear();
   for (int a = 0; a < stages && !joint_nodes_.empty(); ++a) {
-    joint_contact_.push_back(response(joint_nodes_, a, nodes, constant));
-    contact_joint_.push_back(response(nodes, last, joint_nodes_, pattern(Group::joint, a)));
+    joint_contact_.push_back(response(Group::joint, a, Group::contact, constant));
+    contact_joint_.push_back(
+        response(Group::contact, last, Group::joint, pattern(Group::joint, a)));
   }
 }
 
@@ -77,29 +86,58 @@ StageVector ElasticPart::pattern(Group group, int stage) const {
   return StageVector::Unit(stages, stage);
 }
 
+/// What unit tractions at nodes of a group do, 3 columns per node: the displacement of some nodes
+/// without rigid part, and the frame accelerations z.
+struct ElasticPart::UnitTractions {
+  Eigen::MatrixXcd displacement, acceleration;
+};
+
+ElasticPart::UnitTractions ElasticPart::unit_tractions(int component, const std::vector<int>& rows,
+                                                       Group columns) const {
+  const std::vector<int>& loaded = nodes(columns);
+  UnitTractions out{tractions_->response(component, rows, loaded),
+                    tractions_->acceleration(component, loaded)};
+  for (std::size_t j = 0; j < loaded.size(); ++j) {
+    if (!is_corner(columns, j)) continue;
+    const Eigen::Index to = static_cast<Eigen::Index>(3 * j), from = corners_->input_of(j);
+    out.displacement.middleCols<3>(to) =
+        corners_->columns.displacement[component](unknowns_of(rows), Eigen::seqN(from, 3));
+    out.acceleration.middleCols<3>(to) =
+        corners_->columns.acceleration[component].middleCols<3>(from);
+  }
+  return out;
+}
+
+Eigen::MatrixXd ElasticPart::balanced_acceleration(Group columns) const {
+  Eigen::MatrixXd out = tractions_->balanced_acceleration(nodes(columns));
+  for (std::size_t j = 0; j < nodes(columns).size(); ++j)
+    if (is_corner(columns, j))
+      out.middleCols<3>(static_cast<Eigen::Index>(3 * j)) =
+          corners_->columns.balanced_acceleration.middleCols<3>(corners_->input_of(j));
+  return out;
+}
+
 /// Displacement of some nodes at a stage by unit forces on others: deformation, and the offset from
 /// the frame that it causes.
-Eigen::MatrixXd ElasticPart::response(const std::vector<int>& rows, int row_stage,
-                                      const std::vector<int>& columns,
+Eigen::MatrixXd ElasticPart::response(Group rows, int row_stage, Group columns,
                                       const StageVector& pattern) const {
   const auto& initial = system_.scheme().initial_components();
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * rows.size(), 3 * columns.size());
+  const std::vector<int>& loaded = nodes(columns);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * nodes(rows).size(), 3 * loaded.size());
   Eigen::MatrixXd offset = Eigen::MatrixXd::Zero(6, out.cols());
   for (std::size_t c = 0; c < initial.size(); ++c) {
     const Complex factor = initial[c].multiplicity() *
                            (initial[c].right.transpose() * pattern.cast<Complex>()).value();
-    out += (initial[c].left[row_stage] * factor *
-            tractions_->response(static_cast<int>(c), rows, columns))
-               .real();
-    const Eigen::MatrixXcd z = tractions_->acceleration(static_cast<int>(c), columns);
+    const auto [displacement, z] = unit_tractions(static_cast<int>(c), nodes(rows), columns);
+    out += (initial[c].left[row_stage] * factor * displacement).real();
     for (int k = 0; k < pattern.size(); ++k)
       offset -= offset_.gain()(row_stage, k) * (initial[c].left[k] * factor * z).real();
   }
-  offset -= (offset_.gain().row(row_stage) * pattern).value() *
-            tractions_->balanced_acceleration(columns);
-  out.noalias() += rigid_columns(system_.model().geometry.nodes.vertices, rows) * offset;
-  for (std::size_t j = 0; j < columns.size(); ++j)
-    out.middleCols<3>(static_cast<Eigen::Index>(3 * j)) /= areas_[columns[j]];
+  offset -= (offset_.gain().row(row_stage) * pattern).value() * balanced_acceleration(columns);
+  out.noalias() += rigid_columns(system_.model().geometry.nodes.vertices, nodes(rows)) * offset;
+  for (std::size_t j = 0; j < loaded.size(); ++j)
+    out.middleCols<3>(static_cast<Eigen::Index>(3 * j)) /=
+        is_corner(columns, j) ? corners_->areas[corners_->shape_of_joint[j]] : areas_[loaded[j]];
   return out;
 }
 
@@ -126,7 +164,7 @@ ElasticPart::Displacements ElasticPart::displacements(const std::vector<Prescrib
     for (const PrescribedLoad& p : loads)
       state.acceleration[c] +=
           p.load.columns().acceleration[c] * (p.stages.cast<Complex>() * initial[c].right);
-  const Eigen::MatrixXd offsets = offset_.stages(differences(state, loads, {}));
+  const Eigen::MatrixXd offsets = offset_.stages(differences(state, loads, {}, {}));
   const auto at = [&](const std::vector<int>& nodes, int stage) {
     const std::vector<int> rows = unknowns_of(nodes);
     Eigen::VectorXd u = rigid_columns(x, nodes) * offsets.col(stage);
@@ -156,7 +194,7 @@ ElasticPart::Displacements ElasticPart::displacements(const std::vector<Prescrib
   return out;
 }
 
-/// Forces as tractions of the nodes that carry any, ascending.
+/// Forces as tractions of the nodes that carry any, ascending; those of corners are zero.
 NodalLoad ElasticPart::nodal_load(const NodalForces& forces) const {
   const int stages = system_.scheme().stages();
   NodalLoad load;
@@ -165,26 +203,42 @@ NodalLoad ElasticPart::nodal_load(const NodalForces& forces) const {
              std::back_inserter(nodes));
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   load.stages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * nodes.size()), stages);
-  const auto add = [&](const std::vector<int>& group, const Eigen::MatrixXd& values) {
+  const auto add = [&](Group kind, const Eigen::MatrixXd& values) {
+    const std::vector<int>& group = this->nodes(kind);
     for (std::size_t i = 0; i < group.size(); ++i) {
+      if (is_corner(kind, i)) continue;
       const auto place = std::lower_bound(nodes.begin(), nodes.end(), group[i]) - nodes.begin();
       load.stages.middleRows<3>(3 * place) +=
           values.middleRows<3>(static_cast<Eigen::Index>(3 * i)) / areas_[group[i]];
     }
   };
-  add(joint_nodes_, forces.joint);
-  add(contact_nodes_, forces.contact.replicate(1, stages));
+  add(Group::joint, forces.joint);
+  add(Group::contact, forces.contact.replicate(1, stages));
   load.nodes = std::move(nodes);
   return load;
+}
+
+/// Forces on corners as their tractions, inputs x s.
+Eigen::MatrixXd ElasticPart::corner_load(const NodalForces& forces) const {
+  if (!corners_) return {};
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(corners_->inputs(), system_.scheme().stages());
+  for (std::size_t i = 0; i < joint_nodes_.size(); ++i)
+    if (is_corner(Group::joint, i))
+      out.middleRows<3>(corners_->input_of(i)) =
+          forces.joint.middleRows<3>(static_cast<Eigen::Index>(3 * i)) /
+          corners_->areas[corners_->shape_of_joint[i]];
+  return out;
 }
 
 /// By how much the frame of the elastic solution accelerates beyond the balanced value (6 x s).
 Eigen::MatrixXd ElasticPart::differences(const SpectralState& state,
                                          const std::vector<PrescribedLoad>& loads,
-                                         const NodalLoad& nodal) const {
+                                         const NodalLoad& nodal,
+                                         const Eigen::MatrixXd& corner) const {
   Eigen::MatrixXd e = system_.acceleration_stages(state);
   for (const PrescribedLoad& p : loads) system_.subtract_balance(p.load.columns(), p.stages, e);
   if (tractions_) tractions_->subtract_balance(nodal, e);
+  if (corner.size() > 0) system_.subtract_balance(corners_->columns, corner, e);
   return e;
 }
 
@@ -194,9 +248,11 @@ Eigen::VectorXd ElasticPart::end_displacement(const std::vector<PrescribedLoad>&
   for (const PrescribedLoad& p : loads) system_.add_inputs(p.load.columns(), p.stages, state);
   end_.load = nodal_load(forces);
   if (tractions_) tractions_->add(end_.load, state);
+  end_.corner = corner_load(forces);
+  if (corners_) system_.add_inputs(corners_->columns, end_.corner, state);
   end_.displacements = system_.displacement_stages(state);
   end_.accelerations = system_.acceleration_stages(state);
-  end_.differences = differences(state, loads, end_.load);
+  end_.differences = differences(state, loads, end_.load, end_.corner);
   const Eigen::Index last = end_.displacements.cols() - 1;
   const Vector6 offset = offset_.stages(end_.differences).col(last);
   Eigen::VectorXd u = end_.displacements.col(last);
@@ -211,6 +267,7 @@ void ElasticPart::end_step() {
   displacement_history_.push(end_.displacements);
   acceleration_history_.push(end_.accelerations);
   if (tractions_) traction_history_.push(end_.load);
+  if (corners_) corner_history_.push(end_.corner);
   offset_.advance(end_.differences);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dynamics/corner_loads.hpp"
 #include "dynamics/frame_offset.hpp"
 #include "dynamics/surface_load.hpp"
 #include "model/nodal_tractions.hpp"
@@ -29,9 +30,9 @@ struct NodalForces {
 /// displacements are of interest at its end only.
 class ElasticPart {
  public:
-  /// `tractions` may be null if nothing ever touches the body.
+  /// `tractions` may be null if nothing ever touches the body, `corners` if no joint node has any.
   ElasticPart(const ElasticSystem& system, const NodalTractions* tractions,
-              std::vector<int> joint_nodes);
+              std::vector<int> joint_nodes, std::shared_ptr<const CornerLoads> corners);
 
   const LagHistory& displacement_history() const { return displacement_history_; }
   /// Of the displacements without new loads.
@@ -74,10 +75,17 @@ class ElasticPart {
 
  private:
   NodalLoad nodal_load(const NodalForces& forces) const;
+  Eigen::MatrixXd corner_load(const NodalForces& forces) const;
   Eigen::MatrixXd differences(const SpectralState& state, const std::vector<PrescribedLoad>& loads,
-                              const NodalLoad& nodal) const;
-  Eigen::MatrixXd response(const std::vector<int>& rows, int row_stage,
-                           const std::vector<int>& columns, const StageVector& pattern) const;
+                              const NodalLoad& nodal, const Eigen::MatrixXd& corner) const;
+  bool is_corner(Group group, std::size_t i) const {
+    return group == Group::joint && corners_ && corners_->input_of(i) >= 0;
+  }
+  struct UnitTractions;
+  UnitTractions unit_tractions(int component, const std::vector<int>& rows, Group columns) const;
+  Eigen::MatrixXd balanced_acceleration(Group columns) const;
+  Eigen::MatrixXd response(Group rows, int row_stage, Group columns,
+                           const StageVector& pattern) const;
   StageVector pattern(Group group, int stage) const;
   const std::vector<int>& nodes(Group group) const {
     return group == Group::joint ? joint_nodes_ : contact_nodes_;
@@ -87,9 +95,10 @@ class ElasticPart {
   const NodalTractions* tractions_;
   std::vector<double> areas_;  ///< int phi_i, all nodes
   std::vector<int> joint_nodes_, contact_nodes_;
+  std::shared_ptr<const CornerLoads> corners_;
   FrameOffset offset_;
   double leak_ = 0;
-  LagHistory displacement_history_, acceleration_history_;
+  LagHistory displacement_history_, acceleration_history_, corner_history_;
   NodalHistory traction_history_;
   SolutionMemory solution_memory_;
   SpectralState free_;
@@ -100,6 +109,7 @@ class ElasticPart {
   /// The step as last computed by end_displacement().
   struct End {
     NodalLoad load;
+    Eigen::MatrixXd corner;  ///< tractions of corners at the stages [Pa]
     Eigen::MatrixXd displacements, accelerations, differences;
   } end_;
 };

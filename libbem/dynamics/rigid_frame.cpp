@@ -90,7 +90,23 @@ void RigidFrame::integrate_momenta(const State& now, const State& before, const 
   }
 }
 
+/// The step of a frame without inertia.
+RigidFrame::Stages RigidFrame::yield(const FrameLoads& loads) const {
+  const Vec3 way = *mobility_ * (loads.forces[0] / mass_ + gravity_);
+  const Mat3& r = initial_rotation_;
+  const Vec3 turn = *mobility_ * (r * (inverse_inertia_ * (r.transpose() * loads.torques[0])));
+  Stages s;
+  s.impulse = s.angular_impulse = Vec3::Zero();
+  s.translation = {translation() + way};
+  s.rotation = {r};
+  s.velocity = {way / dt_ - (time() + dt_) * gravity_};
+  s.angular_momentum = {r * (inertia_ * (r.transpose() * (turn / dt_)))};
+  s.turn = {state_.turn + turn};
+  return s;
+}
+
 RigidFrame::Stages RigidFrame::stages(const FrameLoads& loads, const FrameDrag& drag) const {
+  if (mobility_) return yield(loads);
   const int count = static_cast<int>(stage_times_.size());
   State now = state_, before = previous_;
   Stages s;

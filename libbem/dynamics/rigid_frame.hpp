@@ -3,6 +3,7 @@
 #include "kernels/scheme.hpp"
 #include "mesh/mass_properties.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace bem {
@@ -71,8 +72,15 @@ class RigidFrame {
   /// The current state as stages, for place().
   Stages current() const;
 
+  /// Takes away the inertia in a stationary frame and a multistep method: from now on every step
+  /// moves the frame by `mobility` [s^2] times force over mass, gravity included, and the same for
+  /// the rotation. Where constraints hold the body, a large mobility brings it to equilibrium.
+  void set_mobility(double mobility) { mobility_ = mobility; }
+
   /// dt^2 times the square of the integration matrix: position by force over mass.
-  const StageMatrix& position_by_acceleration() const { return position_by_acceleration_; }
+  StageMatrix position_by_acceleration() const {
+    return mobility_ ? StageMatrix::Constant(1, 1, *mobility_) : position_by_acceleration_;
+  }
   const Mat3& inverse_inertia() const { return inverse_inertia_; }
   double mass() const { return mass_; }
   const Vec3& gravity() const { return gravity_; }
@@ -104,6 +112,7 @@ class RigidFrame {
                          const FrameDrag& drag, Stages& s) const;
   void integrate_rotation(const State& now, const State& before, Stages& s) const;
   void measure_drag(const FrameDrag& drag, Stages& s) const;
+  Stages yield(const FrameLoads& loads) const;
 
   StageVector stage_times_;
   StageMatrix integration_, position_by_acceleration_;
@@ -113,6 +122,7 @@ class RigidFrame {
   Vec3 gravity_;
   State state_, previous_;  ///< without the fall under gravity
   long step_ = 0;
+  std::optional<double> mobility_;
 };
 
 }  // namespace bem

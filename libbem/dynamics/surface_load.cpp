@@ -1,48 +1,12 @@
 #include "dynamics/surface_load.hpp"
 
-#include "base/parallel.hpp"
+#include "dynamics/load_columns.hpp"
 #include "dynamics/selection.hpp"
 #include "scene/motion.hpp"
 
 #include <map>
 
 namespace bem {
-namespace {
-
-/// The load columns of all nodes: at lag 0 by initial component, and at every later lag.
-struct LoadColumns {
-  std::vector<Eigen::MatrixXd> lags;
-  std::vector<Eigen::MatrixXcd> initial;
-};
-
-LoadColumns assemble_columns(const RowAssembler& assembler,
-                             const std::vector<RowAssembler::PanelLoad>& loads) {
-  const LaneLayout& layout = assembler.layout();
-  const Scheme& scheme = assembler.discretisation().scheme;
-  const auto n = static_cast<Eigen::Index>(3 * assembler.mesh().vertices.size());
-  const Eigen::Index inputs = loads[0].traction.cols();
-  LoadColumns out;
-  out.lags.assign(layout.count() - layout.initial, Eigen::MatrixXd(n, inputs));
-  out.initial.assign(scheme.initial_components().size(), Eigen::MatrixXcd(n, inputs));
-  parallel_for(assembler.mesh().vertices.size(), [&](std::size_t i) {
-    thread_local RowAssembler::Workspace work;
-    const auto row = assembler.assemble_loads(static_cast<int>(i), loads, work);
-    const auto first = static_cast<Eigen::Index>(3 * i);
-    for (int lane = layout.initial; lane < layout.count(); ++lane)
-      out.lags[lane - layout.initial].middleRows<3>(first) = row[lane];
-    int lane = 0;
-    for (std::size_t c = 0; c < out.initial.size(); ++c) {
-      const bool paired = scheme.initial_components()[c].paired;
-      auto target = out.initial[c].middleRows<3>(first);
-      target = row[lane].cast<Complex>();
-      if (paired) target += Complex(0, 1) * row[lane + 1].cast<Complex>();
-      lane += paired ? 2 : 1;
-    }
-  });
-  return out;
-}
-
-}  // namespace
 
 SurfaceLoad::SurfaceLoad(const TractionSpec& spec, const BodyGeometry& g,
                          const Mat3& initial_rotation)
@@ -73,8 +37,7 @@ SurfaceLoad::SurfaceLoad(const TractionSpec& spec, const BodyGeometry& g,
 }
 
 void SurfaceLoad::make_columns(const ElasticSystem& system, const RowAssembler& assembler) {
-  LoadColumns columns = assemble_columns(assembler, panels_);
-  columns_ = system.make_columns(std::move(columns.lags), columns.initial);
+  columns_ = load_columns(system, assembler, panels_);
 }
 
 Eigen::VectorXd SurfaceLoad::values(double t, const Mat3& rotation) const {

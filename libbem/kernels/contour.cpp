@@ -71,7 +71,7 @@ ContourQuadrature::ContourQuadrature(const Scheme& scheme, int last_lag)
       layout_(scheme, last_lag),
       length_(4 * (last_lag + 1)),
       radius_(std::pow(kAliasing, 0.5 / length_)) {
-  require(last_lag >= 1, "at least one past step is kept");
+  require(last_lag >= (scheme.is_multistep() ? 0 : 1), "a past step is kept");
   for (int l = 0; l <= length_ / 2; ++l)
     points_.push_back(spectral_point(std::polar(radius_, 2 * kPi * l / length_)));
   at_zero_ = spectral_point(0);

@@ -42,7 +42,7 @@ struct LaneTable {
 };
 
 /// All convolution quadrature weights of all radial functions, tabulated. The last lag carries the
-/// sum of all later weights (M25).
+/// sum of all later weights (M25): lag 0 alone is the static function.
 class RadialTable {
  public:
   /// Tabulates 0 <= lam <= lam_max to an interpolation error <= tolerance (of values of order one;

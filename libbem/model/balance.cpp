@@ -147,7 +147,7 @@ void compute_balance(BodyModel& model) {
   const int stages = scheme.stages();
   const auto n = static_cast<Eigen::Index>(3 * model.nodes());
   const Adjoint adjoint(model);
-  const auto sums = sum_lags(model, *model.h);
+  const auto sums = model.h ? sum_lags(model, *model.h) : nullptr;
   const Columns rigid = orthonormal_rigid(system.projection().rigid());
   Columns body = body_force(model);
   const Eigen::VectorXd scales = body.colwise().norm();
@@ -157,7 +157,8 @@ void compute_balance(BodyModel& model) {
   const auto apply = [&](const Columns& x) {
     const auto [forces, product] = adjoint.precondition(system, x.topRows(n * stages));
     Columns out(x.rows(), x.cols());
-    out.topRows(n * stages) = product + adjoint.lags(*sums, forces);
+    out.topRows(n * stages) = product;
+    if (sums) out.topRows(n * stages) += adjoint.lags(*sums, forces);
     for (int a = 0; a < stages; ++a)
       out.middleRows(a * n, n) += rigid * x.middleRows(n * stages + 6 * a, 6);
     out.bottomRows(6 * stages) = -body.transpose() * forces;
@@ -181,11 +182,10 @@ void compute_balance(BodyModel& model) {
   const Columns z = solution.topRows(n * stages) * sizes.asDiagonal();
   const Columns forces = adjoint.precondition(system, z).forces;
   model.balance = adjoint.stage_sum(forces).transpose();
-  if (!model.g) return;
-  const auto traction_sums = sum_lags(model, *model.g);
-  const Columns initial = model.is_iterative() ? adjoint.initial(model.initial_g, forces)
-                                               : adjoint.initial(model.traction_response, z);
-  const Columns tractions = initial + adjoint.lags(*traction_sums, forces);
+  if (model.loads == Loads::none) return;
+  Columns tractions = model.is_iterative() ? adjoint.initial(model.initial_g, forces)
+                                           : adjoint.initial(model.traction_response, z);
+  if (model.g) tractions += adjoint.lags(*sum_lags(model, *model.g), forces);
   model.traction_balance = adjoint.stage_sum(tractions).transpose();
 }
 

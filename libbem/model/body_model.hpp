@@ -24,8 +24,9 @@ struct ModelReport {
 };
 
 enum class ModelKind {
-  dynamic,  ///< elastodynamic matrices
-  rigid     ///< geometry and mass alone
+  dynamic,      ///< elastodynamic matrices
+  quasistatic,  ///< elastostatic matrices: the deformation has no inertia and no history
+  rigid         ///< geometry and mass alone
 };
 
 /// Where surface loads, contacts and joints may act on a body.
@@ -52,11 +53,13 @@ struct BodyModel {
   Codec codec = Codec::none;
   Precision precision = Precision::float32;  ///< of uncompressed matrices
 
-  std::unique_ptr<MatrixFamily> h, g;                ///< 3N x 3N, lags >= 1; no g: Loads::none
+  /// 3N x 3N, lags >= 1; no g: Loads::none; neither: no history.
+  std::unique_ptr<MatrixFamily> h, g;
   std::vector<Eigen::MatrixXd> body_force;           ///< [D_k Q_k], 3N x 6, lags >= 1
   std::vector<Eigen::MatrixXcd> initial_body_force;  ///< [D_0 Q_0] by initial component, 3N x 6
   /// Either H_0^{-1} and H_0^{-1} G_0, or H_0 and G_0, which are solved with in every step; the
-  /// others are empty.
+  /// others are empty. Of a quasi-static model H_0 stands for H(0) - [D(0) Q(0)] Pi, see
+  /// docs/method.md.
   std::vector<std::unique_ptr<MatrixFamily>> inverse, traction_response;
   std::vector<std::unique_ptr<MatrixFamily>> initial_h, initial_g;
   /// The static equation H(0) u = b + D(0) a' + Q(0) alpha can be solved for u only with the
@@ -65,11 +68,18 @@ struct BodyModel {
   Eigen::MatrixXd traction_balance;  ///< balance * G(0): 6 x 3N, by nodal tractions
   ModelReport report;
 
+  bool has_history() const { return discretisation.history_length > 0; }
   bool is_iterative() const { return !initial_h.empty(); }
   std::size_t nodes() const { return geometry.nodes.vertices.size(); }
   int components() const { return static_cast<int>(discretisation.scheme.lag_components().size()); }
   int lag_index(int lag, int component) const { return (lag - 1) * components() + component; }
 };
+
+/// The time step that the matrices of a quasi-static model are assembled with: all waves pass within
+/// a tiny part of it [s]. Motions may have any.
+inline double quasistatic_time_step(const BodyGeometry& g, const Material& m) {
+  return 1e9 * g.extent / m.shear_speed();
+}
 
 /// lam = extent/(c2 dt): steps that a shear wave takes across the body.
 inline double traversal_steps(const BodyGeometry& g, const Material& m, double dt) {

@@ -24,6 +24,7 @@ LagHistory::LagHistory(const Scheme& scheme, Eigen::Index inputs, int history_le
       zero_(history_length, 1) {}
 
 void LagHistory::push(const Eigen::MatrixXd& stages) {
+  if (ring_.empty()) return;
   newest_ = (newest_ + ring_.size() - 1) % ring_.size();
   ring_[newest_].noalias() = stages * right_;
   zero_[newest_] = stages.isZero(0);
@@ -53,6 +54,7 @@ LagHistory ElasticSystem::make_displacement_history() const {
 
 void ElasticSystem::subtract_displacement_history(
     const std::vector<const LagHistory*>& u, std::vector<Eigen::MatrixXd>& component_sums) const {
+  if (!model_.h) return;
   const int components = model_.components();
   std::vector<FamilyTerm> terms;
   std::vector<double*> outputs;
@@ -119,6 +121,13 @@ std::vector<SpectralState> ElasticSystem::solve(
     for (Eigen::Index b = 0; b < bodies; ++b)
       loads.col(b) = stage_sums[b].cast<Complex>() * c.right;
     const int component = static_cast<int>(i);
+    if (loads.isZero(0)) {  // nothing has happened yet, or the model has no history
+      for (SpectralState& state : states) {
+        state.displacement.push_back(Eigen::VectorXcd::Zero(loads.rows()));
+        state.acceleration.push_back(Eigen::VectorXcd::Zero(6));
+      }
+      continue;
+    }
     Eigen::MatrixXcd guess(loads.rows(), static_cast<Eigen::Index>(memories.size()));
     for (Eigen::Index b = 0; b < guess.cols(); ++b)
       guess.col(b) = memories[b]->guess(component, loads.col(b));

@@ -3,6 +3,8 @@
 #include "mesh/mass_properties.hpp"
 #include "mesh/surface.hpp"
 
+#include <optional>
+
 namespace bem {
 
 /// A body's surface as it is computed with: nodes in the order of recursive bisection, so that
@@ -14,6 +16,9 @@ struct BodyGeometry {
   TriangleMesh nodes;               ///< relative to the centre of mass, outward
   MassProperties mass;              ///< centre in mesh coordinates
   double extent = 0;                ///< largest distance between two nodes [m]
+  /// Tractions that hold a body or join it to others may jump along edges whose triangles' normals
+  /// enclose more than this [deg].
+  std::optional<double> corner_angle_deg;
 };
 
 /// O(n log n).

@@ -3,6 +3,7 @@
 #include "compress/direct_builder.hpp"
 #include "compress/low_rank_builder.hpp"
 #include "model/initial_inverse.hpp"
+#include "model/rigid_projection.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -62,7 +63,7 @@ void for_each_initial(const Scheme& scheme, const F& f) {
 /// What the slabs of the matrices become; what is not wanted is empty.
 template <class T>
 struct Targets {
-  std::unique_ptr<FamilyBuilder<T>> h, g;                               ///< lags
+  std::unique_ptr<FamilyBuilder<T>> h, g;                               ///< lags, if any
   std::vector<std::unique_ptr<FamilyBuilder<T>>> initial_h, initial_g;  ///< by initial component
   std::vector<InitialMatrix> dense_h, dense_g;  ///< the same, to be inverted
 };
@@ -90,7 +91,7 @@ void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vect
     if (progress) progress("assembly", s.row_begin / nodes);
     assembler.assemble(s.row_begin, s.row_end, slab);
     rotation.add(slab);
-    targets.h->add_rows(views(slab.h));
+    if (targets.h) targets.h->add_rows(views(slab.h));
     if (targets.g) targets.g->add_rows(views(slab.g));
     for_each_initial(model.discretisation.scheme, [&](std::size_t i, int part, int parts) {
       set_dense(targets.dense_h, i, slab.initial_h, part, parts);
@@ -108,6 +109,19 @@ std::vector<InitialMatrix> dense_matrices(const BodyModel& model) {
   for (const InitialComponent& c : model.discretisation.scheme.initial_components())
     out.emplace_back(static_cast<Eigen::Index>(3 * model.nodes()), c.paired);
   return out;
+}
+
+/// H(0) of a quasi-static model has the rigid motions in its null space. Displacements that are free
+/// of them solve the equation with H(0) - [D Q] K Pi as well, which is regular for any regular K:
+/// here one that makes both parts about as large.
+void make_regular(const BodyModel& model, std::vector<InitialMatrix>& h) {
+  if (model.kind != ModelKind::quasistatic) return;
+  Eigen::MatrixXd scaled = model.initial_body_force.at(0).real();
+  for (Eigen::Index c = 0; c < 6; ++c) {
+    const double size = scaled.col(c).cwiseAbs().maxCoeff();
+    scaled.col(c) *= (c < 3 ? 1 : model.geometry.extent) / size;
+  }
+  h.at(0).real.noalias() -= scaled * rigid_part(model.geometry.nodes);
 }
 
 /// Far panels in single precision where neither storage nor tolerance asks for more.
@@ -129,7 +143,7 @@ double finish(FamilyBuilder<T>& builder, std::unique_ptr<MatrixFamily>& family) 
 template <class T>
 void take_families(Targets<T>& targets, BodyModel& model) {
   ModelReport::CodecErrors& errors = model.report.codec_errors;
-  errors.h = finish(*targets.h, model.h);
+  if (targets.h) errors.h = finish(*targets.h, model.h);
   if (targets.g) errors.g = finish(*targets.g, model.g);
   const auto take = [](auto& builders, auto& families, double& error) {
     for (auto& builder : builders) {
@@ -149,8 +163,8 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
   SlabAssembler<T> assembler(model, assembly_precision(options));
   Targets<T> targets;
   const auto builder = [&](int count) { return make_direct_builder<T>(options.codec, n, count); };
-  targets.h = builder(assembler.lag_count());
-  if (tractions) targets.g = builder(assembler.lag_count());
+  if (model.has_history()) targets.h = builder(assembler.lag_count());
+  if (model.has_history() && tractions) targets.g = builder(assembler.lag_count());
   if (options.inverse == InverseKind::dense) {
     targets.dense_h = dense_matrices(model);
     if (tractions) targets.dense_g = dense_matrices(model);
@@ -162,6 +176,7 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
   }
   assemble_all(assembler, model, direct_slabs(options.codec, n), targets, progress);
   take_families(targets, model);
+  make_regular(model, targets.dense_h);
   for (std::size_t i = 0; i < targets.dense_h.size(); ++i)
     invert_dense(model, std::move(targets.dense_h[i]), tractions ? &targets.dense_g[i] : nullptr,
                  options.codec, progress);
@@ -216,8 +231,8 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
   const bool iterative = options.inverse == InverseKind::iterative;
   const CompressedBuilders builders(assembler, slabs, options.codec.tolerance);
   Targets<float> targets;
-  targets.h = builders.h();
-  if (tractions) targets.g = builders.g();
+  if (model.has_history()) targets.h = builders.h();
+  if (model.has_history() && tractions) targets.g = builders.g();
   if (!iterative) targets.dense_h = dense_matrices(model);
   for_each_initial(model.discretisation.scheme, [&](std::size_t, int part, int parts) {
     if (iterative) targets.initial_h.push_back(builders.initial_h(part, parts));
@@ -235,6 +250,7 @@ void assemble_compressed(BodyModel& model, const PrecomputeOptions& options,
   assemble_all(assembler, model, slabs, targets, progress);
   take_families(targets, model);
   if (options.inverse == InverseKind::iterative) return;
+  make_regular(model, targets.dense_h);
   const std::vector<std::unique_ptr<MatrixFamily>> initial_g = std::move(model.initial_g);
   model.initial_g.clear();
   model.report.codec_errors.initial_g = 0;  // not in the model

@@ -36,7 +36,7 @@ std::vector<int> unknowns_of(const std::vector<int>& nodes) {
 
 TractionData extract_tractions(const BodyModel& model, const std::vector<int>& nodes) {
   const auto& initial = model.is_iterative() ? model.initial_g : model.traction_response;
-  require(model.g && !initial.empty(), "traction matrices are in memory");
+  require(model.loads != Loads::none && !initial.empty(), "traction matrices are in memory");
   const std::vector<int> columns = unknowns_of(nodes);
   const auto pick = [&](const MatrixFamily& family) -> std::shared_ptr<const MatrixFamily> {
     if (dynamic_cast<const DenseFamily<float>*>(&family))
@@ -47,7 +47,7 @@ TractionData extract_tractions(const BodyModel& model, const std::vector<int>& n
   };
   TractionData data;
   data.nodes = nodes;
-  data.lags = pick(*model.g);
+  if (model.g) data.lags = pick(*model.g);
   for (const auto& m : initial) data.initial.push_back(pick(*m));
   return data;
 }
@@ -56,6 +56,7 @@ NodalHistory::NodalHistory(const Scheme& scheme, int history_length, double wind
     : right_(lag_inputs(scheme)), window_(window), ring_(history_length) {}
 
 void NodalHistory::push(const NodalLoad& load) {
+  if (ring_.empty()) return;
   newest_ = (newest_ + ring_.size() - 1) % ring_.size();
   Lag& lag = ring_[newest_];
   if (load.stages.isZero(0)) {
@@ -81,13 +82,14 @@ NodalTractions::NodalTractions(const ElasticSystem& system, TractionData data)
 }
 
 std::size_t NodalTractions::bytes() const {
-  std::size_t sum = lags_->bytes();
+  std::size_t sum = lags_ ? lags_->bytes() : 0;
   for (const auto& m : response_) sum += m->bytes();
   return sum;
 }
 
 void NodalTractions::add_history(const NodalHistory& history,
                                  Eigen::MatrixXd& component_sums) const {
+  if (!lags_) return;
   std::vector<SparseTerm> terms;
   std::vector<double*> outputs;
   const int components = system_.model().components();

@@ -8,7 +8,7 @@ namespace bem {
 /// The traction matrices, or those of their columns that belong to some nodes.
 struct TractionData {
   std::vector<int> nodes;                                    ///< ascending
-  std::shared_ptr<const MatrixFamily> lags;                  ///< G_k, lag >= 1
+  std::shared_ptr<const MatrixFamily> lags;                  ///< G_k, lag >= 1, if there are any
   std::vector<std::shared_ptr<const MatrixFamily>> initial;  ///< H_0^{-1} G_0, iterative: G_0
 };
 

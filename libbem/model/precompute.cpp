@@ -46,15 +46,18 @@ BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
   if (options.kind == ModelKind::rigid) return model;
   model.precision = options.precision;
   model.codec = options.codec.codec;
-  model.report.lam =
-      traversal_steps(model.geometry, options.discretisation.material, options.discretisation.dt);
+  if (model.kind == ModelKind::dynamic)
+    model.report.lam =
+        traversal_steps(model.geometry, options.discretisation.material, options.discretisation.dt);
   model.loads = options.loads;
   model.loaded_nodes = options.loaded_nodes;
+  require(model.kind == ModelKind::dynamic || options.inverse == InverseKind::dense,
+          "a quasi-static model has an inverse");
   assemble_model(model, options, progress);
   if (progress) progress("static balance", 0);
   compute_balance(model);
   model.window = options.window > 0 ? options.window : 1;
-  if (options.measure_growth) {
+  if (options.measure_growth && model.has_history()) {
     if (progress) progress("growth factor", 0);
     model.report.growth = growth_factor(model).factor;
     if (options.window == 0) model.window = automatic_window(model);

@@ -6,7 +6,9 @@
 namespace bem {
 
 struct PrecomputeOptions {
-  ModelKind kind = ModelKind::dynamic;  ///< rigid: nothing below but the material counts
+  /// rigid: nothing below but the material counts; quasistatic: no history, a multistep method,
+  /// quasistatic_time_step(), dense inverse.
+  ModelKind kind = ModelKind::dynamic;
   Discretisation discretisation;
   Precision precision = Precision::float32;  ///< of uncompressed matrices
   CodecOptions codec;

@@ -100,6 +100,8 @@ struct BodySpec {
   std::vector<HandleSpec> handles;
   std::vector<TractionSpec> tractions;
   Location location;
+
+  bool is_stationary() const { return frame == FrameMotion::stationary; }
 };
 
 }  // namespace bem

@@ -17,7 +17,7 @@ double now() {
 }
 
 std::size_t bytes_of(const BodyModel& m) {
-  std::size_t bytes = m.h->bytes();
+  std::size_t bytes = m.h ? m.h->bytes() : 0;
   for (const auto* families : {&m.inverse, &m.initial_h})
     for (const auto& family : *families) bytes += family->bytes();
   return bytes;
@@ -146,15 +146,20 @@ void Simulation::load(ModelSource& source) {
           *s.system, source.tractions(scene_.bodies[users[0]].archive, nodes));
       matrix_bytes_ += s.tractions->bytes();
     }
-    if (std::any_of(users.begin(), users.end(),
-                    [&](int b) { return !scene_.bodies[b].tractions.empty(); }))
+    if (std::any_of(users.begin(), users.end(), [&](int b) {
+          return !scene_.bodies[b].tractions.empty() || has_corner_loads(plan_.nodes[b]);
+        }))
       s.assembler = std::make_shared<RowAssembler>(
           s.model->geometry.nodes, s.model->geometry.extent, s.model->discretisation);
   }
   bodies_.reserve(scene_.bodies.size());
-  for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
-    bodies_.emplace_back(scene_.bodies[b], models[scene_.bodies[b].archive.resolved],
-                         scene_.time_step, scene_.gravity, plan_.nodes[b]);
+  for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+    const SharedModel& s = models[scene_.bodies[b].archive.resolved];
+    std::shared_ptr<const CornerLoads> corners;
+    if (s.assembler) corners = make_corner_loads(*s.system, *s.assembler, plan_.nodes[b]);
+    bodies_.emplace_back(scene_.bodies[b], s, scene_.time_step, scene_.gravity, plan_.nodes[b],
+                         std::move(corners));
+  }
 }
 
 /// Nodes that joints or contacts may act on, of bodies that share a model.
@@ -283,7 +288,8 @@ void Simulation::collide() {
 
 Vec3 Simulation::total_momentum() const {
   Vec3 sum = Vec3::Zero();
-  for (const Body& body : bodies_) sum += body.frame().momentum();
+  for (const Body& body : bodies_)
+    if (body.has_inertia()) sum += body.frame().momentum();
   return sum;
 }
 
@@ -291,7 +297,8 @@ Vec3 Simulation::total_momentum() const {
 Vec3 Simulation::total_angular_momentum() const {
   Vec3 sum = Vec3::Zero();
   for (const Body& body : bodies_)
-    sum += body.frame().translation().cross(body.frame().momentum()) + body.frame().spin();
+    if (body.has_inertia())
+      sum += body.frame().translation().cross(body.frame().momentum()) + body.frame().spin();
   return sum;
 }
 

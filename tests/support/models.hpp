@@ -20,6 +20,16 @@ inline bem::PrecomputeOptions options_for(const bem::BodyGeometry& geometry,
   return o;
 }
 
+/// Of a model without history.
+inline bem::PrecomputeOptions quasistatic_options(const bem::BodyGeometry& geometry,
+                                                  const bem::Material& material) {
+  bem::PrecomputeOptions o = options_for(geometry, material, "bdf1", 1);
+  o.kind = bem::ModelKind::quasistatic;
+  o.discretisation.dt = bem::quasistatic_time_step(geometry, material);
+  o.discretisation.history_length = 0;
+  return o;
+}
+
 inline bem::BodyGeometry geometry_of(bem::TriangleMesh mesh, double density) {
   return bem::make_geometry(bem::make_surface(std::move(mesh), "test body"), density);
 }

@@ -36,7 +36,8 @@ void add_matrix_options(CLI::App& app, Typed& t) {
   app.option_defaults()->group("Matrices");
   app.add_option("--dt", o.dt, "time step [s]; default: the material's \"time_step\"")
       ->type_name("S");
-  app.add_option("--scheme", o.scheme, "radau2, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2)")
+  app.add_option("--scheme", o.scheme,
+                 "radau2, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2; --model static: bdf1)")
       ->type_name("NAME");
   app.add_option("--window", t.window,
                  "factor 0 < q <= 1 on the weights per lag, 1 for none; auto: the weakest that "
@@ -44,7 +45,8 @@ void add_matrix_options(CLI::App& app, Typed& t) {
       ->type_name("q");
   app.add_option(
          "--model", t.model,
-         "dynamic, or rigid: geometry and mass alone; static is not supported yet (dynamic)")
+         "dynamic; static: a deformation without inertia, for any time step; or rigid: geometry "
+         "and mass alone (dynamic)")
       ->type_name("NAME");
   app.add_option("--history-tol", o.history_tolerance,
                  "length of the history from the size of the weights beyond it")
@@ -76,7 +78,8 @@ void add_matrix_options(CLI::App& app, Typed& t) {
                  "with selections of vertices as in scenes (all)")
       ->type_name("all|none|FILE");
   app.add_option("--corner-angle-deg", t.corner_angle,
-                 "double nodes along sharp edges: none; angles are not supported yet (none)")
+                 "double nodes for the tractions of fixed and joined vertices along edges sharper "
+                 "than this, or none (none)")
       ->type_name("A");
   app.add_option("--damping", t.damping, "material damping: not supported yet")->expected(0, -1);
   app.add_option("--mesh-scale", o.mesh_scale, "factor on the coordinates of the mesh (1)")
@@ -134,16 +137,19 @@ double parse_window(const std::string& text) {
   refuse("--window is auto or a number q with 0 < q <= 1, not \"" + text + "\"");
 }
 
-/// Refuses what other versions of the program may offer.
-void check_supported(const Typed& t) {
-  const auto one_of = [](const std::string& option, const std::string& value,
-                         const std::vector<std::string>& later, const std::string& now) {
-    if (value == now) return;
-    if (std::find(later.begin(), later.end(), value) != later.end())
-      refuse(option + " " + value + " is not supported yet; use " + option + " " + now);
-    refuse(option + " does not know \"" + value + "\"; use " + now);
-  };
-  if (t.model != "rigid") one_of("--model", t.model, {"static"}, "dynamic");
+std::optional<double> parse_corner_angle(const std::string& text) {
+  if (text == "none") return std::nullopt;
+  double degrees = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), degrees);
+  if (code == std::errc() && end == text.data() + text.size() && degrees > 0 && degrees < 180)
+    return degrees;
+  refuse("--corner-angle-deg is none or an angle between 0 and 180, not \"" + text + "\"");
+}
+
+/// Refuses unknown names, and options that do not belong together.
+void check_names(const Typed& t) {
+  if (t.model != "dynamic" && t.model != "static" && t.model != "rigid")
+    refuse("--model is dynamic, static or rigid, not \"" + t.model + "\"");
   if (t.codec != "none" && t.codec != "haar" && t.codec != "lowrank")
     refuse("--codec is none, haar or lowrank, not \"" + t.codec + "\"");
   if (t.codec_tolerance && t.codec == "none")
@@ -152,8 +158,6 @@ void check_supported(const Typed& t) {
     refuse("--compression-ratio belongs to --codec haar");
   if (t.compression_ratio && t.codec_tolerance)
     refuse("use either --compression-ratio or --codec-tol");
-  if (t.corner_angle != "none")
-    refuse("--corner-angle-deg with an angle is not supported yet; use --corner-angle-deg none");
   if (t.codec != "none" && t.precision != "float32")
     refuse("--precision belongs to --codec none; use --codec-tol with --codec " + t.codec);
   if (t.precision != "float32" && t.precision != "float64")
@@ -162,13 +166,22 @@ void check_supported(const Typed& t) {
     refuse("--loads with a file needs --codec lowrank");
 }
 
+/// Refuses what a model without history does not have.
+void check_static(const Options& o, const Scheme& scheme) {
+  if (!scheme.is_multistep())
+    refuse("--model static moves its frame by a scheme with one stage: bdf1, bdf2 or theta:T");
+  if (o.history || o.history_tolerance) refuse("--model static has no history");
+  if (o.inverse == InverseKind::iterative) refuse("--model static needs --inverse dense");
+}
+
 void check_inputs(const Options& o) {
   if (o.mesh.empty() || o.material.empty())
     refuse("give a mesh and a material file: bemprecomp MESH MATERIAL.json -o BODY.bem");
   if (o.output.empty() && !o.dry_run) refuse("name the archive to write: -o BODY.bem");
   if (o.dt) positive("--dt", *o.dt);
   positive("--mesh-scale", o.mesh_scale);
-  Scheme::parse(o.scheme);
+  const Scheme scheme = Scheme::parse(o.scheme);
+  if (o.model == ModelKind::quasistatic) check_static(o, scheme);
   if (o.history && o.history_tolerance) refuse("use either --history or --history-tol");
   if (o.history) number_in("--history", *o.history, 1, 100000);
   if (o.history_tolerance) number_in("--history-tol", *o.history_tolerance, 1e-13, 0.5);
@@ -207,8 +220,12 @@ Options checked(const CLI::App& app, Typed& t) {
     o.archives = t.diff;
   } else {
     if (app.count("--damping") > 0) refuse("--damping is not supported yet; leave it away");
-    check_supported(t);
-    o.model = t.model == "rigid" ? ModelKind::rigid : ModelKind::dynamic;
+    check_names(t);
+    o.model = t.model == "rigid"    ? ModelKind::rigid
+              : t.model == "static" ? ModelKind::quasistatic
+                                    : ModelKind::dynamic;
+    if (o.scheme.empty()) o.scheme = o.model == ModelKind::quasistatic ? "bdf1" : "radau2";
+    o.corner_angle_deg = parse_corner_angle(t.corner_angle);
     o.window = parse_window(t.window);
     o.precision = t.precision == "float32" ? Precision::float32 : Precision::float64;
     o.inverse = parse_inverse(t.inverse);
@@ -230,11 +247,13 @@ Options checked(const CLI::App& app, Typed& t) {
 std::string Options::canonical_text() const {
   if (model == ModelKind::rigid) return "--model rigid";
   std::string text = "--scheme " + Scheme::parse(scheme).name();
-  text += " --window " + (window == 0 ? "auto" : to_text(window));
+  const bool dynamic = model == ModelKind::dynamic;
+  if (dynamic) text += " --window " + (window == 0 ? "auto" : to_text(window));
   if (history) text += " --history " + std::to_string(*history);
   if (history_tolerance) text += " --history-tol " + to_text(*history_tolerance);
   text += " --quadrature-tol " + to_text(quadrature_tolerance);
-  text += " --model dynamic --codec " + std::string(codec_name(codec.codec));
+  text += dynamic ? " --model dynamic" : " --model static";
+  text += " --codec " + std::string(codec_name(codec.codec));
   if (codec.codec == Codec::none)
     text +=
         std::string(" --precision ") + (precision == Precision::float32 ? "float32" : "float64");
@@ -244,7 +263,7 @@ std::string Options::canonical_text() const {
     text += " --codec-tol " + to_text(codec.tolerance);
   if (inverse) text += *inverse == InverseKind::dense ? " --inverse dense" : " --inverse iterative";
   if (loads != "all") text += " --loads " + loads;
-  return text + " --corner-angle-deg none";
+  return text + " --corner-angle-deg " + (corner_angle_deg ? to_text(*corner_angle_deg) : "none");
 }
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {

@@ -18,13 +18,14 @@ struct Options {
   std::string mesh, material, output;
   std::optional<double> dt;  ///< [s]; else the material's
   ModelKind model = ModelKind::dynamic;
-  std::string scheme = "radau2";
+  std::string scheme;  ///< a name that Scheme::parse() knows
   double window = 0;  ///< as PrecomputeOptions: 0 is "auto"
   std::optional<double> history_tolerance;
   std::optional<int> history;
   double quadrature_tolerance = 1e-6;
   Precision precision = Precision::float32;  ///< of codec none
   CodecOptions codec;
+  std::optional<double> corner_angle_deg;
   std::optional<InverseKind> inverse;  ///< else by the number of nodes
   std::string loads = "all";           ///< "all", "none" or a file with selections
   double mesh_scale = 1;

@@ -37,7 +37,9 @@ BodyGeometry read_body(const Options& o, double density, std::vector<std::string
     for (Vec3& v : mesh.vertices) v *= o.mesh_scale;
   Surface surface = make_surface(std::move(mesh), o.mesh);
   warnings = surface.warnings;
-  return make_geometry(surface, density);
+  BodyGeometry geometry = make_geometry(surface, density);
+  geometry.corner_angle_deg = o.corner_angle_deg;
+  return geometry;
 }
 
 /// Nodes that a file of selections chooses.
@@ -53,7 +55,8 @@ void plan_storage(const Options& o, Plan& plan) {
   PrecomputeOptions& p = plan.options;
   p.precision = o.precision;
   p.codec = o.codec;
-  const bool large = plan.geometry.nodes.vertices.size() > kMostDense;
+  const bool large = plan.geometry.nodes.vertices.size() > kMostDense &&
+                     o.model == ModelKind::dynamic;  // others need the inverse
   p.inverse = o.inverse.value_or(large ? InverseKind::iterative : InverseKind::dense);
   if (o.loads == "none") {
     p.loads = Loads::none;
@@ -77,6 +80,22 @@ int history_length(const Options& o, const Scheme& scheme, double lam) {
   if (o.history) return *o.history;
   if (o.history_tolerance) return history_length_for_tolerance(scheme, lam, *o.history_tolerance);
   return default_history_length(scheme, lam);
+}
+
+double time_step(const Options& o, const Material& material) {
+  if (!o.dt && !material.time_step)
+    throw Error(ErrorCode::usage, "no time step: give --dt S, or \"time_step\" in " + o.material);
+  return o.dt ? *o.dt : *material.time_step;
+}
+
+void plan_history(const Options& o, Plan& plan) {
+  Discretisation& d = plan.options.discretisation;
+  plan.lam = traversal_steps(plan.geometry, d.material, d.dt);
+  if (!(plan.lam <= kMostTraversalSteps))
+    throw Error(ErrorCode::usage,
+                "the time step " + to_text(d.dt) + " s is too small: a shear wave takes " +
+                    to_text(std::round(plan.lam)) + " steps across the body; use a larger --dt");
+  d.history_length = history_length(o, d.scheme, plan.lam);
 }
 
 template <class T>
@@ -135,20 +154,16 @@ Plan make_plan(const Options& o) {
     plan.archive_bytes = archive_bytes(plan.geometry, plan.options, 0);
     return plan;
   }
-  if (!o.dt && !d.material.time_step)
-    throw Error(ErrorCode::usage, "no time step: give --dt S, or \"time_step\" in " + o.material);
-  d.dt = o.dt ? *o.dt : *d.material.time_step;
   d.scheme = Scheme::parse(o.scheme);
   d.quadrature_tolerance = o.quadrature_tolerance;
   plan.options.window = o.window;
+  if (o.model == ModelKind::dynamic) d.dt = time_step(o, d.material);
   plan.geometry = read_body(o, d.material.density, plan.warnings);
   plan_storage(o, plan);
-  plan.lam = traversal_steps(plan.geometry, d.material, d.dt);
-  if (!(plan.lam <= kMostTraversalSteps))
-    throw Error(ErrorCode::usage,
-                "the time step " + to_text(d.dt) + " s is too small: a shear wave takes " +
-                    to_text(std::round(plan.lam)) + " steps across the body; use a larger --dt");
-  d.history_length = history_length(o, d.scheme, plan.lam);
+  if (o.model == ModelKind::dynamic)
+    plan_history(o, plan);
+  else
+    d.dt = quasistatic_time_step(plan.geometry, d.material);
   estimate_bytes(o.dry_run, plan);
   if (d.history_length > kLongHistory)
     plan.warnings.push_back(
@@ -191,8 +206,9 @@ TimeEstimate estimate_time(const Plan& plan) {
   constexpr double kIterations = 30;
   const double lags = static_cast<double>(d.history_length * d.scheme.lag_components().size());
   const double reads = 0.5 * (dense ? 1 : 1 + kIterations / lags);
-  t.growth =
-      (kGrowthSteps + d.history_length) * plan.stored * reads * seconds_per_byte_of_products();
+  if (lags > 0)
+    t.growth =
+        (kGrowthSteps + d.history_length) * plan.stored * reads * seconds_per_byte_of_products();
   t.writing = plan.archive_bytes / kWriteSpeed;
   return t;
 }

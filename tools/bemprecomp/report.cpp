@@ -29,21 +29,23 @@ Json material_json(const Material& m) {
 
 Json body_json(const BodyGeometry& g) {
   const Vec3& c = g.mass.centre;
-  return {{"nodes", g.nodes.vertices.size()},
-          {"triangles", g.nodes.triangles.size()},
-          {"volume", g.mass.volume},
-          {"mass", g.mass.mass},
-          {"centre_of_mass", {c[0], c[1], c[2]}},
-          {"extent", g.extent}};
+  Json json = {{"nodes", g.nodes.vertices.size()},
+               {"triangles", g.nodes.triangles.size()},
+               {"volume", g.mass.volume},
+               {"mass", g.mass.mass},
+               {"centre_of_mass", {c[0], c[1], c[2]}},
+               {"extent", g.extent}};
+  if (g.corner_angle_deg) json["corner_angle_deg"] = *g.corner_angle_deg;
+  return json;
 }
 
 Json scheme_json(const Discretisation& d, double window) {
-  return {{"name", d.scheme.name()},
-          {"stages", d.scheme.stages()},
-          {"dt", d.dt},
-          {"history_length", d.history_length},
-          {"window", window},
-          {"quadrature_tolerance", d.quadrature_tolerance}};
+  Json json = {{"name", d.scheme.name()}, {"stages", d.scheme.stages()}};
+  if (d.history_length > 0) json["dt"] = d.dt;
+  json.update({{"history_length", d.history_length},
+               {"window", window},
+               {"quadrature_tolerance", d.quadrature_tolerance}});
+  return json;
 }
 
 Json report_json(const ModelReport& r) {
@@ -83,12 +85,17 @@ void print_body(Table& table, const BodyGeometry& g, const Material& m) {
              " triangles, ", g.nodes.vertices.size(), " nodes");
   table.line("body", "extent ", g.extent, " m, volume ", g.mass.volume, " m^3, mass ", g.mass.mass,
              " kg");
+  if (g.corner_angle_deg)
+    table.line("corners", "double nodes along edges sharper than ", *g.corner_angle_deg, " degrees");
   table.line("material", m.name, ": density ", m.density, " kg/m^3, shear modulus ",
              m.shear_modulus, " Pa, Poisson ratio ", m.poisson_ratio);
 }
 
 void print_scheme(Table& table, const Discretisation& d, double lam) {
-  table.line("time", d.scheme.name(), ", dt ", d.dt, " s, history of ", d.history_length,
+  if (d.history_length == 0)
+    table.line("time", "any time step, without history; the frame moves by ", d.scheme.name());
+  else
+    table.line("time", d.scheme.name(), ", dt ", d.dt, " s, history of ", d.history_length,
              " steps (a shear wave crosses the body in ", lam, " steps)");
 }
 
@@ -155,7 +162,8 @@ void print_matrices(Table& table, const Archive& archive) {
   const Discretisation& d = archive.discretisation();
   const ModelReport& r = archive.report();
   print_scheme(table, d, r.lam);
-  table.line("window", archive.window());
+  const bool dynamic = archive.kind() == ModelKind::dynamic;
+  if (dynamic) table.line("window", archive.window());
   table.line("matrices", archive.matrix_paths().size(), " of ", archive.unknowns(), " x ",
              archive.unknowns(), ", codec ", codec_name(archive.codec()),
              archive.codec() == Codec::none
@@ -165,7 +173,8 @@ void print_matrices(Table& table, const Archive& archive) {
   table.line("quadrature", "tolerance ", d.quadrature_tolerance, ", row sums repaired by ",
              r.row_sum_residual, ", rotation residual ", r.rotation_residual);
   if (archive.codec() != Codec::none) print_codec_errors(table, archive);
-  table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
+  if (dynamic)
+    table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
              " without window)");
   if (!archive.is_iterative()) table.line("condition", r.condition, " (lag 0)");
 }
@@ -180,7 +189,7 @@ void print_info(std::ostream& out, const Archive& archive) {
              ", format version ", archive.user_block().version);
   table.line("model", model_name(archive.kind()));
   print_body(table, archive.geometry(), archive.discretisation().material);
-  if (archive.kind() == ModelKind::dynamic) print_matrices(table, archive);
+  if (archive.kind() != ModelKind::rigid) print_matrices(table, archive);
   table.line("made by", p.program, " from ", p.mesh_file, " (times ", p.mesh_scale, ") and ",
              p.material_file);
   table.line("options", p.options);
@@ -194,8 +203,10 @@ void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
   table.line("archive size", bytes_text(plan.archive_bytes));
   if (plan.options.kind == ModelKind::rigid) return;
   print_scheme(table, d, plan.lam);
-  table.line("lam", plan.lam);
-  table.line("n_max", d.history_length);
+  if (plan.options.kind == ModelKind::dynamic) {
+    table.line("lam", plan.lam);
+    table.line("n_max", d.history_length);
+  }
   table.line("memory", bytes_text(plan.stored), " of matrices, ", bytes_text(plan.peak),
              " at most (the machine has ", bytes_text(static_cast<double>(physical_memory())), ")");
   table.line("time", "about ", seconds_text(time.total()), " on ", thread_count(),

@@ -38,6 +38,10 @@ std::string growth_warning(const BodyModel& model) {
   return "";
 }
 
+std::string history_text(int steps) {
+  return steps == 0 ? "no history" : "history of " + std::to_string(steps) + " steps";
+}
+
 /// Follows the phases of the work: timer, progress bar, and the check for Ctrl-C.
 class Phases {
  public:
@@ -102,9 +106,9 @@ int run_precompute(const Options& o, Log& log) {
   check_archive_target(o.output, o.force, plan.archive_bytes);
   std::optional<PendingFile> stats;  // a bad path is noticed before the work
   if (!o.stats.empty()) stats.emplace(o.stats);
-  if (o.model == ModelKind::dynamic)
-    log.info(std::to_string(plan.geometry.nodes.vertices.size()) + " nodes, history of " +
-             std::to_string(plan.options.discretisation.history_length) + " steps, " +
+  if (o.model != ModelKind::rigid)
+    log.info(std::to_string(plan.geometry.nodes.vertices.size()) + " nodes, " +
+             history_text(plan.options.discretisation.history_length) + ", " +
              (plan.stored > 0 ? "" : "at least ") + bytes_text(plan.peak) + " of memory");
 
   phases.begin("tables");

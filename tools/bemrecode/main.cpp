@@ -84,8 +84,8 @@ int run(int argc, char** argv) {
   if (!o.output.empty()) check_archive_target(o.output, o.force);
 
   const Archive archive(o.input);
-  if (archive.kind() == ModelKind::rigid)
-    throw Error(ErrorCode::archive, o.input + ": is an archive of a rigid body, without matrices");
+  if (archive.kind() != ModelKind::dynamic)
+    throw Error(ErrorCode::archive, o.input + ": is not the archive of a dynamic body");
   Provenance provenance = archive.provenance();
   provenance.options = recoded_options(provenance.options, o);
   BodyModel model = archive.load_all();
