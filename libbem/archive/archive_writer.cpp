@@ -99,8 +99,7 @@ void write_geometry(Hdf5File& file, const BodyGeometry& g) {
   file.set_attribute("/body", "volume", g.mass.volume);
   file.set_attribute("/body", "mass", g.mass.mass);
   file.set_attribute("/body", "extent", g.extent);
-  if (g.corner_angle_deg)
-    file.set_attribute("/body", "corner_angle_deg", *g.corner_angle_deg);
+  if (g.corner_angle_deg) file.set_attribute("/body", "corner_angle_deg", *g.corner_angle_deg);
 }
 
 void write_material(Hdf5File& file, const Material& m) {
@@ -318,8 +317,8 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
   const double bytes =
       rigid ? overhead_bytes(model.geometry, 0)
             : matrix_bytes(model) + table_bytes(model) +
-                  overhead_bytes(model.geometry, 2.0 * model.discretisation.history_length *
-                                                     model.components());
+                  overhead_bytes(model.geometry,
+                                 2.0 * model.discretisation.history_length * model.components());
   check_archive_target(path, force, bytes);
   PendingFile pending(path);
   Hdf5CreateOptions options;

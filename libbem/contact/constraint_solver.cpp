@@ -39,7 +39,8 @@ ConstraintSolver::ConstraintSolver(const JointPlan& plan, std::vector<Body>& bod
 }
 
 std::optional<Holder> ConstraintSolver::holder(int body) const {
-  if ((*bodies_)[body].model().window == 1) return std::nullopt;  // nothing depends on it
+  const Body& b = (*bodies_)[body];
+  if (b.model().window == 1 && b.has_inertia()) return std::nullopt;  // nothing depends on it
   return mechanisms_[mechanism_of_[body]].holder(body, start_centres_[body], start_, dt_);
 }
 

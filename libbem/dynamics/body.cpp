@@ -22,9 +22,9 @@ InitialMotion initial_motion(const BodySpec& spec, const BodyModel& model, const
 /// Centroids of the hat functions of some nodes on their triangles: int x phi_i / int phi_i.
 std::vector<Vec3> hat_centroids(const TriangleMesh& mesh, const std::vector<JointNode>& nodes) {
   const auto moment = [&mesh](const Triangle& t, int v) {  // int x phi_v
-    return Vec3(triangle_area(mesh, t) / 12 *
-                (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]] +
-                 mesh.vertices[v]));
+    return Vec3(
+        triangle_area(mesh, t) / 12 *
+        (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]] + mesh.vertices[v]));
   };
   std::vector<Vec3> moments(mesh.vertices.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles)
@@ -47,8 +47,8 @@ std::vector<Vec3> hat_centroids(const TriangleMesh& mesh, const std::vector<Join
   return out;
 }
 
-/// How far a frame without inertia yields to forces: so much more than the body deforms that next to
-/// nothing is left of them in a step [s^2].
+/// How far a frame without inertia yields to forces: so much more than the body deforms that next
+/// to nothing is left of them in a step [s^2].
 double equilibrium_mobility(const BodyModel& model) {
   constexpr double kTimesDeformation = 1e6;
   const double stiffness = model.discretisation.material.shear_modulus * model.geometry.extent;
@@ -78,7 +78,8 @@ Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec
       anchor_levers_(hat_centroids(shared.model->geometry.nodes, joint_nodes_)) {
   if (shared_.system)
     elastic_.emplace(*shared_.system, shared_.tractions.get(), node_numbers(joint_nodes_),
-                     std::move(corners));
+                     std::move(corners),
+                     spec.correction == Correction::least_squares ? shared_.correction : nullptr);
   for (const TractionSpec& t : spec_.tractions) {
     PrescribedLoad p{{t, shared_.model->geometry, frame_.rotation()}, {}, {}};
     p.stages = Eigen::MatrixXd::Zero(p.load.inputs(), stage_count_);
@@ -370,11 +371,22 @@ std::vector<Vec3> Body::end_positions() {
   return out;
 }
 
+/// The end of the step as if forces had brought about these accelerations (a', alpha), body axes.
+void Body::move_frame_by(const Vector6& acceleration) {
+  const MassProperties& mass = model().geometry.mass;
+  const Mat3& r = frame_.rotation();
+  FrameLoads loads;
+  loads.forces = {r * (mass.mass * acceleration.head<3>())};
+  loads.torques = {r * (mass.inertia * acceleration.tail<3>())};
+  frame_stages_ = frame_.stages(loads, drag_);
+}
+
 void Body::end_step() {
   if (elastic_) {
     if (!end_known_) end_displacement_ = elastic_->end_displacement(loads_, nodal_forces());
-    elastic_->end_step();
-    displacement_ = end_displacement_;
+    const auto corrected = elastic_->end_step();
+    if (corrected) move_frame_by(corrected->acceleration);
+    displacement_ = corrected ? corrected->displacement : end_displacement_;
     for (PrescribedLoad& p : loads_) p.history.push(p.stages);
   }
   frame_.advance(frame_stages_);

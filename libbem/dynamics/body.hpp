@@ -14,8 +14,9 @@ namespace bem {
 struct SharedModel {
   std::shared_ptr<const BodyModel> model;
   std::shared_ptr<const ElasticSystem> system;
-  std::shared_ptr<const RowAssembler> assembler;  ///< for prescribed loads and those of corners
+  std::shared_ptr<const RowAssembler> assembler;    ///< for prescribed loads and those of corners
   std::shared_ptr<const NodalTractions> tractions;  ///< of the nodes that constraints may act on
+  std::shared_ptr<const LeastSquaresCorrection> correction;  ///< if some body is corrected so
 };
 
 /// What holds a body in the world: the rigid motion since the start that the prescribed places of
@@ -127,6 +128,7 @@ class Body {
   FrameLoads frame_loads() const;
   double contact_gain() const;
   Vec3 contact_force() const;
+  void move_frame_by(const Vector6& acceleration);
   NodalForces nodal_forces() const;
   Vec3 joint_lever(std::size_t i, int stage) const;
   Vec3 joint_displacement(std::size_t i, int stage) const;

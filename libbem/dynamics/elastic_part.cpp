@@ -23,12 +23,14 @@ double time_step_of_offset(const BodyModel& model) {
 }  // namespace
 
 ElasticPart::ElasticPart(const ElasticSystem& system, const NodalTractions* tractions,
-                         std::vector<int> joint_nodes, std::shared_ptr<const CornerLoads> corners)
+                         std::vector<int> joint_nodes, std::shared_ptr<const CornerLoads> corners,
+                         std::shared_ptr<const LeastSquaresCorrection> correction)
     : system_(system),
       tractions_(tractions),
       areas_(vertex_areas(system.model().geometry.nodes)),
       joint_nodes_(std::move(joint_nodes)),
       corners_(std::move(corners)),
+      correction_(std::move(correction)),
       offset_(system.scheme(), time_step_of_offset(system.model())) {
   displacement_history_ = system.make_displacement_history();
   acceleration_history_ = system.make_history(6);
@@ -117,6 +119,40 @@ Eigen::MatrixXd ElasticPart::balanced_acceleration(Group columns) const {
   return out;
 }
 
+/// (a', alpha) by unit forces at nodes of a group.
+Eigen::MatrixXd ElasticPart::unit_accelerations(Group columns) const {
+  const BodyGeometry& g = system_.model().geometry;
+  const Mat3 inverse = g.mass.inertia.inverse();
+  const std::vector<int>& loaded = nodes(columns);
+  Eigen::MatrixXd out(6, 3 * loaded.size());
+  for (std::size_t j = 0; j < loaded.size(); ++j) {
+    const auto at = static_cast<Eigen::Index>(3 * j);
+    out.block<3, 3>(0, at) = Mat3::Identity() / g.mass.mass;
+    out.block<3, 3>(3, at) = inverse * cross_matrix(g.nodes.vertices[loaded[j]]);
+  }
+  return out;
+}
+
+/// (a', alpha) by loads and forces, for the least-squares correction.
+Vector6 ElasticPart::predicted_acceleration(const std::vector<PrescribedLoad>& loads,
+                                            const NodalForces& forces) const {
+  const MassProperties& mass = system_.model().geometry.mass;
+  Vector6 out = Vector6::Zero();
+  for (const PrescribedLoad& p : loads) {
+    out.head<3>() += p.load.force() * p.stages.col(0) / mass.mass;
+    out.tail<3>() += mass.inertia.inverse() * (p.load.torque() * p.stages.col(0));
+  }
+  if (forces.joint.size() > 0) out += unit_accelerations(Group::joint) * forces.joint.col(0);
+  if (forces.contact.size() > 0) out += unit_accelerations(Group::contact) * forces.contact;
+  return out;
+}
+
+/// Displacements of some nodes by accelerations that the projection has taken out of them.
+Eigen::MatrixXd ElasticPart::lift(const std::vector<int>& rows,
+                                  const Eigen::MatrixXd& accelerations) const {
+  return system_.projection().response(0).real()(unknowns_of(rows), Eigen::all) * accelerations;
+}
+
 /// Displacement of some nodes at a stage by unit forces on others: deformation, and the offset from
 /// the frame that it causes.
 Eigen::MatrixXd ElasticPart::response(Group rows, int row_stage, Group columns,
@@ -132,12 +168,15 @@ Eigen::MatrixXd ElasticPart::response(Group rows, int row_stage, Group columns,
     out += (initial[c].left[row_stage] * factor * displacement).real();
     for (int k = 0; k < pattern.size(); ++k)
       offset -= offset_.gain()(row_stage, k) * (initial[c].left[k] * factor * z).real();
+    if (correction_) out += lift(nodes(rows), z.real());
   }
   offset -= (offset_.gain().row(row_stage) * pattern).value() * balanced_acceleration(columns);
-  out.noalias() += rigid_columns(system_.model().geometry.nodes.vertices, nodes(rows)) * offset;
+  if (!correction_)
+    out.noalias() += rigid_columns(system_.model().geometry.nodes.vertices, nodes(rows)) * offset;
   for (std::size_t j = 0; j < loaded.size(); ++j)
     out.middleCols<3>(static_cast<Eigen::Index>(3 * j)) /=
         is_corner(columns, j) ? corners_->areas[corners_->shape_of_joint[j]] : areas_[loaded[j]];
+  if (correction_) out += lift(nodes(rows), unit_accelerations(columns));
   return out;
 }
 
@@ -165,9 +204,12 @@ ElasticPart::Displacements ElasticPart::displacements(const std::vector<Prescrib
       state.acceleration[c] +=
           p.load.columns().acceleration[c] * (p.stages.cast<Complex>() * initial[c].right);
   const Eigen::MatrixXd offsets = offset_.stages(differences(state, loads, {}, {}));
+  Vector6 lifted = Vector6::Zero();
+  if (correction_) lifted = state.acceleration[0].real() + predicted_acceleration(loads, {{}, {}});
   const auto at = [&](const std::vector<int>& nodes, int stage) {
     const std::vector<int> rows = unknowns_of(nodes);
-    Eigen::VectorXd u = rigid_columns(x, nodes) * offsets.col(stage);
+    Eigen::VectorXd u = correction_ ? Eigen::VectorXd(lift(nodes, lifted))
+                                    : Eigen::VectorXd(rigid_columns(x, nodes) * offsets.col(stage));
     for (std::size_t c = 0; c < initial.size(); ++c) {
       Eigen::VectorXcd v = free_.displacement[c](rows);
       for (const PrescribedLoad& p : loads)
@@ -254,6 +296,11 @@ Eigen::VectorXd ElasticPart::end_displacement(const std::vector<PrescribedLoad>&
   end_.accelerations = system_.acceleration_stages(state);
   end_.differences = differences(state, loads, end_.load, end_.corner);
   const Eigen::Index last = end_.displacements.cols() - 1;
+  if (correction_) {
+    end_.predicted = predicted_acceleration(loads, forces);
+    return end_.displacements.col(0) +
+           system_.projection().response(0).real() * (end_.predicted - end_.accelerations.col(0));
+  }
   const Vector6 offset = offset_.stages(end_.differences).col(last);
   Eigen::VectorXd u = end_.displacements.col(last);
   const std::vector<Vec3>& x = system_.model().geometry.nodes.vertices;
@@ -263,12 +310,29 @@ Eigen::VectorXd ElasticPart::end_displacement(const std::vector<PrescribedLoad>&
   return u;
 }
 
-void ElasticPart::end_step() {
+/// Takes the rigid motion out of the displacements in the paper's way.
+ElasticPart::Corrected ElasticPart::correct() const {
+  const Eigen::MatrixXd response = system_.projection().response(0).real();
+  const Eigen::VectorXd v = end_.displacements.col(0) - response * end_.accelerations.col(0);
+  Corrected out;
+  out.acceleration = correction_->accelerations(v + response * end_.predicted, v, end_.predicted);
+  out.displacement = v + response * out.acceleration;
+  return out;
+}
+
+std::optional<ElasticPart::Corrected> ElasticPart::end_step() {
+  std::optional<Corrected> corrected;
+  if (correction_) {
+    corrected = correct();
+    end_.displacements = corrected->displacement;
+    end_.accelerations = corrected->acceleration;
+  }
   displacement_history_.push(end_.displacements);
   acceleration_history_.push(end_.accelerations);
   if (tractions_) traction_history_.push(end_.load);
   if (corners_) corner_history_.push(end_.corner);
   offset_.advance(end_.differences);
+  return corrected;
 }
 
 void ElasticPart::add_nodal_tractions(const NodalForces& forces,

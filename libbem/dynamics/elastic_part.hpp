@@ -2,10 +2,12 @@
 
 #include "dynamics/corner_loads.hpp"
 #include "dynamics/frame_offset.hpp"
+#include "dynamics/least_squares.hpp"
 #include "dynamics/surface_load.hpp"
 #include "model/nodal_tractions.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace bem {
 
@@ -32,7 +34,8 @@ class ElasticPart {
  public:
   /// `tractions` may be null if nothing ever touches the body, `corners` if no joint node has any.
   ElasticPart(const ElasticSystem& system, const NodalTractions* tractions,
-              std::vector<int> joint_nodes, std::shared_ptr<const CornerLoads> corners);
+              std::vector<int> joint_nodes, std::shared_ptr<const CornerLoads> corners,
+              std::shared_ptr<const LeastSquaresCorrection> correction);
 
   const LagHistory& displacement_history() const { return displacement_history_; }
   /// Of the displacements without new loads.
@@ -67,17 +70,28 @@ class ElasticPart {
   /// All displacements at the end of the step, 3 per node [m].
   Eigen::VectorXd end_displacement(const std::vector<PrescribedLoad>& loads,
                                    const NodalForces& forces);
-  /// Makes the motion last computed by end_displacement() part of the history.
-  void end_step();
+  /// Makes the motion last computed by end_displacement() part of the history. With the
+  /// least-squares correction this changes the displacements, which are returned with the
+  /// accelerations (a', alpha) that the frame has to move by instead of those of the forces.
+  struct Corrected {
+    Eigen::VectorXd displacement;
+    Vector6 acceleration;
+  };
+  std::optional<Corrected> end_step();
 
   /// Nodal tractions of forces at the end of the step are added [Pa, body axes].
   void add_nodal_tractions(const NodalForces& forces, Eigen::Matrix3Xd& tractions) const;
 
  private:
+  Corrected correct() const;
   NodalLoad nodal_load(const NodalForces& forces) const;
   Eigen::MatrixXd corner_load(const NodalForces& forces) const;
   Eigen::MatrixXd differences(const SpectralState& state, const std::vector<PrescribedLoad>& loads,
                               const NodalLoad& nodal, const Eigen::MatrixXd& corner) const;
+  Vector6 predicted_acceleration(const std::vector<PrescribedLoad>& loads,
+                                 const NodalForces& forces) const;
+  Eigen::MatrixXd unit_accelerations(Group columns) const;
+  Eigen::MatrixXd lift(const std::vector<int>& rows, const Eigen::MatrixXd& accelerations) const;
   bool is_corner(Group group, std::size_t i) const {
     return group == Group::joint && corners_ && corners_->input_of(i) >= 0;
   }
@@ -96,6 +110,7 @@ class ElasticPart {
   std::vector<double> areas_;  ///< int phi_i, all nodes
   std::vector<int> joint_nodes_, contact_nodes_;
   std::shared_ptr<const CornerLoads> corners_;
+  std::shared_ptr<const LeastSquaresCorrection> correction_;  ///< null: projection
   FrameOffset offset_;
   double leak_ = 0;
   LagHistory displacement_history_, acceleration_history_, corner_history_;
@@ -111,6 +126,7 @@ class ElasticPart {
     NodalLoad load;
     Eigen::MatrixXd corner;  ///< tractions of corners at the stages [Pa]
     Eigen::MatrixXd displacements, accelerations, differences;
+    Vector6 predicted;  ///< accelerations by the forces, for the least-squares correction
   } end_;
 };
 

@@ -75,8 +75,8 @@ struct BodyModel {
   int lag_index(int lag, int component) const { return (lag - 1) * components() + component; }
 };
 
-/// The time step that the matrices of a quasi-static model are assembled with: all waves pass within
-/// a tiny part of it [s]. Motions may have any.
+/// The time step that the matrices of a quasi-static model are assembled with: all waves pass
+/// within a tiny part of it [s]. Motions may have any.
 inline double quasistatic_time_step(const BodyGeometry& g, const Material& m) {
   return 1e9 * g.extent / m.shear_speed();
 }

@@ -111,9 +111,9 @@ std::vector<InitialMatrix> dense_matrices(const BodyModel& model) {
   return out;
 }
 
-/// H(0) of a quasi-static model has the rigid motions in its null space. Displacements that are free
-/// of them solve the equation with H(0) - [D Q] K Pi as well, which is regular for any regular K:
-/// here one that makes both parts about as large.
+/// H(0) of a quasi-static model has the rigid motions in its null space. Displacements that are
+/// free of them solve the equation with H(0) - [D Q] K Pi as well, which is regular for any regular
+/// K: here one that makes both parts about as large.
 void make_regular(const BodyModel& model, std::vector<InitialMatrix>& h) {
   if (model.kind != ModelKind::quasistatic) return;
   Eigen::MatrixXd scaled = model.initial_body_force.at(0).real();

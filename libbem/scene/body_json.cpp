@@ -67,6 +67,12 @@ BodySpec read_body(const JsonValue& value) {
   if (const auto frame = reader.optional("frame"))
     body.frame =
         frame->choice({"moving", "static"}) == 0 ? FrameMotion::moving : FrameMotion::stationary;
+  if (const auto correction = reader.optional("correction")) {
+    if (correction->choice({"projection", "least_squares"}) == 1)
+      body.correction = Correction::least_squares;
+    if (body.correction == Correction::least_squares && body.is_stationary())
+      throw correction->unexpected("\"projection\", because a static frame has no other");
+  }
   if (const auto gravity = reader.optional("gravity")) body.gravity = gravity->boolean();
   if (const auto friction = reader.optional("friction")) body.friction = friction->non_negative();
   read_constraints_and_loads(reader, body);

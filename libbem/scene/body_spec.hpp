@@ -86,6 +86,12 @@ enum class FrameMotion {
   stationary  ///< "static" in the file: it stays where the body started
 };
 
+/// What keeps displacements free of rigid motion.
+enum class Correction {
+  projection,    ///< linear, exact momentum: docs/method.md, "One time step"
+  least_squares  ///< the paper's section 3.2.1, to compare with
+};
+
 struct BodySpec {
   std::string name;
   FilePath archive;
@@ -94,6 +100,7 @@ struct BodySpec {
   Vec3 velocity = Vec3::Zero();          ///< of the centre of mass [m/s]
   Vec3 angular_velocity = Vec3::Zero();  ///< about the centre of mass [rad/s]
   FrameMotion frame = FrameMotion::moving;
+  Correction correction = Correction::projection;
   bool gravity = true;
   double friction = 0;  ///< coefficient, >= 0
   std::vector<Selection> fixed;

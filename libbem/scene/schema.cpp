@@ -119,6 +119,7 @@ const std::string& scene_schema() {
         "velocity": {"description": "Of the centre of mass [m/s]; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
         "angular_velocity": {"description": "About the centre of mass [rad/s], world axes; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
         "frame": {"description": "Frame of the displacements; default moving.", "enum": ["moving", "static"]},
+        "correction": {"description": "What keeps displacements free of rigid motion: the linear projection, or the paper's least squares, to compare with; default projection.", "enum": ["projection", "least_squares"]},
         "gravity": {"description": "Whether gravity acts on the body; default true.", "type": "boolean"},
         "friction": {"$ref": "#/$defs/friction"},
         "fixed": {"description": "Vertices that stay where they are.", "type": "array", "items": {"$ref": "#/$defs/selection"}},

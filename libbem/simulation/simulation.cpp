@@ -140,6 +140,7 @@ void Simulation::load(ModelSource& source) {
     sharing_.push_back(users);
     s.system = std::make_shared<ElasticSystem>(*s.model);
     matrix_bytes_ += bytes_of(*s.model);
+    s.correction = make_correction(users, *s.system);
     const std::vector<int> nodes = touched_nodes(users, *s.model);
     if (!nodes.empty()) {
       s.tractions = std::make_shared<NodalTractions>(
@@ -160,6 +161,26 @@ void Simulation::load(ModelSource& source) {
     bodies_.emplace_back(scene_.bodies[b], s, scene_.time_step, scene_.gravity, plan_.nodes[b],
                          std::move(corners));
   }
+}
+
+/// If one of the bodies is to be corrected by least squares.
+std::shared_ptr<const LeastSquaresCorrection> Simulation::make_correction(
+    const std::vector<int>& users, const ElasticSystem& system) const {
+  for (int b : users) {
+    const BodySpec& body = scene_.bodies[b];
+    if (body.correction != Correction::least_squares) continue;
+    if (system.scheme().is_multistep() && system.model().kind == ModelKind::dynamic)
+      return std::make_shared<LeastSquaresCorrection>(system);
+    throw Error(ErrorCode::archive,
+                where(body.archive.location) + ": the correction \"least_squares\" of the body " +
+                    in_quotes(body.name) +
+                    " needs an archive of --model dynamic with the scheme "
+                    "bdf1, bdf2 or theta:T, but " +
+                    in_quotes(body.archive.written) + " has " + system.scheme().name() +
+                    "; make it again, or use the correction "
+                    "\"projection\"");
+  }
+  return nullptr;
 }
 
 /// Nodes that joints or contacts may act on, of bodies that share a model.

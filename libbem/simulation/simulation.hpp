@@ -61,6 +61,8 @@ class Simulation {
 
  private:
   void load(ModelSource& source);
+  std::shared_ptr<const LeastSquaresCorrection> make_correction(const std::vector<int>& users,
+                                                                const ElasticSystem& system) const;
   std::vector<int> touched_nodes(const std::vector<int>& users, const BodyModel& model) const;
   void begin_step();
   /// The best motion of a step so far.

@@ -30,8 +30,8 @@ Setup quasistatic(const TriangleMesh& mesh, const Material& m) {
 
 PrecomputeOptions options_of(const Setup& s, const BodyGeometry& g) {
   const bool is_static = std::string(s.scheme) == "static";
-  PrecomputeOptions o = is_static ? quasistatic_options(g, s.material)
-                                  : options_for(g, s.material, s.scheme, s.lam);
+  PrecomputeOptions o =
+      is_static ? quasistatic_options(g, s.material) : options_for(g, s.material, s.scheme, s.lam);
   o.discretisation.quadrature_tolerance = kQuadrature;
   o.window = s.window;
   return o;
@@ -44,7 +44,8 @@ Eigen::VectorXd rest_displacement(const Setup& s, const BodyGeometry& g, const B
   const PrecomputeOptions o = options_of(s, g);
   MemorySource source;
   source.add("b", precompute(g, o));
-  Scene scene = one_body_scene(o.discretisation.dt);
+  const bool is_static = o.kind == ModelKind::quasistatic;
+  Scene scene = one_body_scene(is_static ? 0.01 : o.discretisation.dt);
   const std::string name = scene.bodies[0].name;
   const FilePath archive = scene.bodies[0].archive;
   scene.bodies[0] = spec;
@@ -237,7 +238,7 @@ TEST_CASE("a quasi-static body follows its handle and does not overshoot") {
   double sag = 0, apart = 0, drift = 0;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     sag = std::max(sag, mesh.vertices[v][1] - positions[0][v][1]);
-    apart = std::max(apart, (positions[4][v] - positions[0][v] - Vec3(0, 0, 0.08)).norm());
+    apart = std::max(apart, (positions[4][v] - positions[2][v] - Vec3(0, 0, 0.04)).norm());
     drift = std::max(drift, (positions[7][v] - positions[4][v]).norm());
   }
   CHECK(sag > 0.01);  // of its own weight

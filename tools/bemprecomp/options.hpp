@@ -19,7 +19,7 @@ struct Options {
   std::optional<double> dt;  ///< [s]; else the material's
   ModelKind model = ModelKind::dynamic;
   std::string scheme;  ///< a name that Scheme::parse() knows
-  double window = 0;  ///< as PrecomputeOptions: 0 is "auto"
+  double window = 0;   ///< as PrecomputeOptions: 0 is "auto"
   std::optional<double> history_tolerance;
   std::optional<int> history;
   double quadrature_tolerance = 1e-6;

@@ -86,7 +86,8 @@ void print_body(Table& table, const BodyGeometry& g, const Material& m) {
   table.line("body", "extent ", g.extent, " m, volume ", g.mass.volume, " m^3, mass ", g.mass.mass,
              " kg");
   if (g.corner_angle_deg)
-    table.line("corners", "double nodes along edges sharper than ", *g.corner_angle_deg, " degrees");
+    table.line("corners", "double nodes along edges sharper than ", *g.corner_angle_deg,
+               " degrees");
   table.line("material", m.name, ": density ", m.density, " kg/m^3, shear modulus ",
              m.shear_modulus, " Pa, Poisson ratio ", m.poisson_ratio);
 }
@@ -96,7 +97,7 @@ void print_scheme(Table& table, const Discretisation& d, double lam) {
     table.line("time", "any time step, without history; the frame moves by ", d.scheme.name());
   else
     table.line("time", d.scheme.name(), ", dt ", d.dt, " s, history of ", d.history_length,
-             " steps (a shear wave crosses the body in ", lam, " steps)");
+               " steps (a shear wave crosses the body in ", lam, " steps)");
 }
 
 }  // namespace
@@ -175,7 +176,7 @@ void print_matrices(Table& table, const Archive& archive) {
   if (archive.codec() != Codec::none) print_codec_errors(table, archive);
   if (dynamic)
     table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
-             " without window)");
+               " without window)");
   if (!archive.is_iterative()) table.line("condition", r.condition, " (lag 0)");
 }
 
