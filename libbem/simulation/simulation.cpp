@@ -53,6 +53,8 @@ double penetration_allowed(int passes) {
 
 }  // namespace
 
+namespace {
+
 void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
   if (std::abs(dt - scene.time_step) <= 1e-9 * dt) return;
   throw Error(ErrorCode::archive,
@@ -61,6 +63,28 @@ void check_time_step(const Scene& scene, const BodySpec& body, double dt) {
                   to_text(scene.time_step) + " s (" + where(scene.time_step_location) +
                   "); make the archive again with --dt " + to_text(scene.time_step) +
                   ", or change the scene");
+}
+
+void check_correction(const BodySpec& body, ModelKind kind, const Scheme& scheme) {
+  if (body.correction == Correction::projection) return;
+  const bool dynamic = kind == ModelKind::dynamic;
+  if (dynamic && scheme.is_multistep()) return;
+  throw Error(ErrorCode::archive,
+              where(body.archive.location) + ": the correction \"least_squares\" of the body " +
+                  in_quotes(body.name) +
+                  " needs an archive of a dynamic body with the scheme "
+                  "bdf1, bdf2 or theta:T, but " +
+                  in_quotes(body.archive.written) +
+                  (dynamic ? " has the scheme " + scheme.name() : " is of another model") +
+                  "; make it again, or use the correction \"projection\"");
+}
+
+}  // namespace
+
+void check_archive(const Scene& scene, const BodySpec& body, ModelKind kind,
+                   const Discretisation& discretisation) {
+  if (kind == ModelKind::dynamic) check_time_step(scene, body, discretisation.dt);
+  check_correction(body, kind, discretisation.scheme);
 }
 
 std::vector<Scheme> body_schemes(const Scene& scene,
@@ -120,8 +144,7 @@ void Simulation::load(ModelSource& source) {
     ++archives_;
     for (int b : users) {
       geometries[b] = &s.model->geometry;
-      if (s.model->kind == ModelKind::dynamic)
-        check_time_step(scene_, scene_.bodies[b], s.model->discretisation.dt);
+      check_archive(scene_, scene_.bodies[b], s.model->kind, s.model->discretisation);
     }
   }
   plan_ = plan_joints(scene_, geometries);
@@ -140,7 +163,10 @@ void Simulation::load(ModelSource& source) {
     sharing_.push_back(users);
     s.system = std::make_shared<ElasticSystem>(*s.model);
     matrix_bytes_ += bytes_of(*s.model);
-    s.correction = make_correction(users, *s.system);
+    if (std::any_of(users.begin(), users.end(), [&](int b) {
+          return scene_.bodies[b].correction == Correction::least_squares;
+        }))
+      s.correction = std::make_shared<LeastSquaresCorrection>(*s.system);
     const std::vector<int> nodes = touched_nodes(users, *s.model);
     if (!nodes.empty()) {
       s.tractions = std::make_shared<NodalTractions>(
@@ -161,26 +187,6 @@ void Simulation::load(ModelSource& source) {
     bodies_.emplace_back(scene_.bodies[b], s, scene_.time_step, scene_.gravity, plan_.nodes[b],
                          std::move(corners));
   }
-}
-
-/// If one of the bodies is to be corrected by least squares.
-std::shared_ptr<const LeastSquaresCorrection> Simulation::make_correction(
-    const std::vector<int>& users, const ElasticSystem& system) const {
-  for (int b : users) {
-    const BodySpec& body = scene_.bodies[b];
-    if (body.correction != Correction::least_squares) continue;
-    if (system.scheme().is_multistep() && system.model().kind == ModelKind::dynamic)
-      return std::make_shared<LeastSquaresCorrection>(system);
-    throw Error(ErrorCode::archive,
-                where(body.archive.location) + ": the correction \"least_squares\" of the body " +
-                    in_quotes(body.name) +
-                    " needs an archive of --model dynamic with the scheme "
-                    "bdf1, bdf2 or theta:T, but " +
-                    in_quotes(body.archive.written) + " has " + system.scheme().name() +
-                    "; make it again, or use the correction "
-                    "\"projection\"");
-  }
-  return nullptr;
 }
 
 /// Nodes that joints or contacts may act on, of bodies that share a model.

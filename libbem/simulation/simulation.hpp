@@ -61,8 +61,6 @@ class Simulation {
 
  private:
   void load(ModelSource& source);
-  std::shared_ptr<const LeastSquaresCorrection> make_correction(const std::vector<int>& users,
-                                                                const ElasticSystem& system) const;
   std::vector<int> touched_nodes(const std::vector<int>& users, const BodyModel& model) const;
   void begin_step();
   /// The best motion of a step so far.
@@ -97,8 +95,9 @@ class Simulation {
 };
 
 /// Throws ErrorCode::archive, naming the place in the scene, if the archive of a body was made for
-/// another time step than the scene's.
-void check_time_step(const Scene& scene, const BodySpec& body, double archive_time_step);
+/// another time step than the scene's, or for another correction than the body's.
+void check_archive(const Scene& scene, const BodySpec& body, ModelKind kind,
+                   const Discretisation& discretisation);
 
 /// The time discretisations of a scene's bodies in their order, from those of the deformable ones;
 /// rigid bodies (null) take that of the first. Throws ErrorCode::archive, naming the place in the

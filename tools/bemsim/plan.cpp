@@ -44,8 +44,7 @@ void apply_options(const Options& o, Plan& plan) {
 
 PlannedBody plan_body(const Scene& scene, const BodySpec& spec, ArchiveSource& source) {
   PlannedBody body{&spec, &source.open(spec.archive), 0, 0, {}};
-  if (body.archive->kind() == ModelKind::dynamic)
-    check_time_step(scene, spec, body.archive->discretisation().dt);
+  check_archive(scene, spec, body.archive->kind(), body.archive->discretisation());
   const BodyGeometry& geometry = body.archive->geometry();
   for (const TractionSpec& load : spec.tractions)
     body.loaded.push_back(select_triangles(geometry, load.select).size());
@@ -111,10 +110,13 @@ void print_body(std::ostream& out, const PlannedBody& body, const Vec3& gravity)
       << printable(spec.archive.written);
   if (body.archive->kind() == ModelKind::rigid)
     out << " (rigid)\n";
+  else if (d.history_length == 0)
+    out << " (static, frame by " << d.scheme.name() << ")\n";
   else
     out << " (" << d.scheme.name() << ", history of "
         << count_text(static_cast<std::size_t>(d.history_length), "step") << ")\n";
   out << "  " << (spec.frame == FrameMotion::moving ? "moving" : "static") << " frame";
+  if (spec.correction == Correction::least_squares) out << ", corrected by least squares";
   if (spec.gravity && !gravity.isZero(0)) out << ", gravity " << vector_text(gravity, "m/s^2");
   if (!spec.velocity.isZero(0)) out << ", velocity " << vector_text(spec.velocity, "m/s");
   if (!spec.angular_velocity.isZero(0))
