@@ -169,6 +169,10 @@ void Archive::read_discretisation() {
   window_ = file_.double_attribute("/scheme", "window");
   if (!(std::isfinite(d.dt) && d.dt > 0 && window_ > 0 && window_ <= 1))
     refuse("has an impossible time step or window");
+  if (file_.has_attribute("/scheme", "damping_time")) {
+    d.damping.time = file_.double_attribute("/scheme", "damping_time");
+    if (!(d.damping.time > 0 && std::isfinite(d.damping.time))) refuse("has an impossible damping");
+  }
   const std::string name = file_.string_attribute("/scheme", "name");
   try {
     d.scheme = Scheme::parse(name);

@@ -125,6 +125,7 @@ void write_scheme(Hdf5File& file, const BodyModel& model) {
   file.set_attribute("/scheme", "history_length", d.history_length);
   file.set_attribute("/scheme", "window", model.window);
   file.set_attribute("/scheme", "quadrature_tolerance", d.quadrature_tolerance);
+  if (d.damping.time > 0) file.set_attribute("/scheme", "damping_time", d.damping.time);
   file.write("/scheme/stage_times", scheme.stage_times().data(),
              {static_cast<std::size_t>(stages)});
   RowMajor left(lag.size(), stages), right(lag.size(), stages);

@@ -30,6 +30,7 @@ struct Discretisation {
   double dt = 0;           ///< [s]
   int history_length = 0;  ///< number of past steps kept; multistep methods: >= 0, others >= 1
   double quadrature_tolerance = 1e-6;
+  Damping damping = {};
 };
 
 /// Assembles all lags of H, G, D and Q together in real arithmetic, one block row at a time. The

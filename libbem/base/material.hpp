@@ -22,4 +22,10 @@ struct Material {
   double kappa() const { return (1 - 2 * poisson_ratio) / (2 * (1 - poisson_ratio)); }
 };
 
+/// Material damping of a Kelvin-Voigt solid: its stress is that of the strain plus `time` times
+/// that of the strain's rate, so both moduli are multiplied by 1 + s time, s the Laplace variable.
+struct Damping {
+  double time = 0;  ///< retardation time [s]; 0: none
+};
+
 }  // namespace bem

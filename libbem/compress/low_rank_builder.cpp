@@ -161,16 +161,20 @@ void LowRankBuilder::add_rows(const std::vector<MatrixView<float>>& matrices) {
   LowRankSlab out;
   out.row_begin = 3 * slab.row_begin;
   out.row_end = 3 * slab.row_end;
-  const auto append = [](auto& to, const auto& from) {
-    to.insert(to.end(), from.begin(), from.end());
+  // exactly as large as needed: room to grow would be a quarter of a model's memory
+  const auto join = [&encoded](auto& to, auto part) {
+    std::size_t size = 0;
+    for (const Encoded& e : encoded) size += (e.*part).size();
+    to.reserve(size);
+    for (const Encoded& e : encoded) to.insert(to.end(), (e.*part).begin(), (e.*part).end());
   };
+  join(out.couplings, &Encoded::couplings);
+  join(out.input_scales, &Encoded::input_scales);
+  join(out.output_scales, &Encoded::output_scales);
+  join(out.analysis, &Encoded::analysis);
+  join(out.synthesis, &Encoded::synthesis);
   for (const Encoded& e : encoded) {
     out.blocks.push_back(e.block);
-    append(out.couplings, e.couplings);
-    append(out.input_scales, e.input_scales);
-    append(out.output_scales, e.output_scales);
-    append(out.analysis, e.analysis);
-    append(out.synthesis, e.synthesis);
     squared_error_ += e.squared_error;
   }
   for (const MatrixView<float>& m : matrices)

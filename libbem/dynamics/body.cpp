@@ -390,11 +390,26 @@ void Body::end_step() {
     for (PrescribedLoad& p : loads_) p.history.push(p.stages);
   }
   frame_.advance(frame_stages_);
+  check_state();
+}
+
+/// Stops motions that have no meaning any more.
+void Body::check_state() const {
+  constexpr double kMostDeformation = 100;  // of the body's size
+  const std::string when = " at t = " + std::to_string(frame_.time()) + " s";
   if (!displacement_.allFinite() || !frame_.translation().allFinite() ||
       !frame_.rotation().allFinite())
     throw Error(ErrorCode::numerical,
-                "body \"" + spec_.name +
-                    "\" has non-finite positions at t = " + std::to_string(frame_.time()) + " s");
+                "body \"" + spec_.name + "\" has non-finite positions" + when);
+  const double most = displacement_.cwiseAbs().maxCoeff() / model().geometry.extent;
+  if (most > kMostDeformation)
+    throw Error(
+        ErrorCode::numerical,
+        "body \"" + spec_.name + "\" is deformed to " + std::to_string(static_cast<long>(most)) +
+            " times its size" + when +
+            ": if its loads do not do that, its motion is unstable; make its archive with "
+            "--window auto (or a smaller window), a larger --dt, a smaller --codec-tol or a "
+            "finer mesh");
 }
 
 std::vector<Vec3> Body::node_positions() const {

@@ -99,7 +99,8 @@ class Body {
 
   /// World positions of all nodes at the end of the step that update() has computed.
   std::vector<Vec3> end_positions();
-  /// Takes the end of the step as the new state. Throws ErrorCode::numerical if it is not finite.
+  /// Takes the end of the step as the new state. Throws ErrorCode::numerical if it is not finite,
+  /// or deformed to a hundred times the body's size.
   void end_step();
 
   const std::string& name() const { return spec_.name; }
@@ -123,6 +124,7 @@ class Body {
 
  private:
   bool is_quasistatic() const { return model().kind == ModelKind::quasistatic; }
+  void check_state() const;
   void check_loadable(const std::vector<int>& nodes) const;
   double stage_time(int stage) const;
   FrameLoads frame_loads() const;

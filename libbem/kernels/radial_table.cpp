@@ -28,10 +28,12 @@ Eigen::Matrix<double, kNodes, kNodes> interpolation_matrix() {
 
 }  // namespace
 
-RadialWeights::RadialWeights(const Scheme& scheme, double kappa, int last_lag)
+RadialWeights::RadialWeights(const Scheme& scheme, double kappa, int last_lag,
+                             const Damping& damping)
     : contour_(scheme, last_lag),
-      closed_form_(scheme.is_multistep() && scheme.theta() == 0),
-      kappa_(kappa) {}
+      closed_form_(scheme.is_multistep() && scheme.theta() == 0 && damping.time == 0),
+      kappa_(kappa),
+      damping_(damping) {}
 
 void RadialWeights::evaluate(double lam, double* out) const {
   if (closed_form_ && lam < 600) {
@@ -39,8 +41,10 @@ void RadialWeights::evaluate(double lam, double* out) const {
     return;
   }
   const auto functions = [lam, this](Complex d, Complex* value) {
-    const RadialValues<Complex> v = radial_values(d * lam, kappa_);
+    const Complex m = 1.0 + damping_.time * d;
+    const RadialValues<Complex> v = radial_values(d * lam / std::sqrt(m), kappa_);
     std::copy(v.begin(), v.end(), value);
+    for (int f : {kRadialA, kRadialB, kRadialF, kRadialM1, kRadialM0}) value[f] /= m;
   };
   contour_.weights(kRadialCount, functions, out, true);
 }
@@ -60,8 +64,8 @@ void RadialWeights::evaluate_bdf1(double lam, double* out) const {
 }
 
 RadialTable::RadialTable(const Scheme& scheme, double kappa, double lam_max, int last_lag,
-                         double tolerance)
-    : layout_(scheme, last_lag), kappa_(kappa) {
+                         double tolerance, const Damping& damping)
+    : layout_(scheme, last_lag), kappa_(kappa), damping_(damping) {
   require(lam_max > 0, "the table covers a positive range");
   lanes_.set_lanes(layout_.count());
   set_static_parts(scheme);
@@ -90,7 +94,7 @@ void RadialTable::build(const Scheme& scheme, double lam_max) {
   lanes_.intervals_per_lam = lanes_.intervals / lam_max;
   lanes_.coefficients.assign(lanes_.intervals * lanes_.interval_size(), 0.0);
   const Eigen::Matrix<double, kNodes, kNodes> to_monomials = interpolation_matrix();
-  const RadialWeights weights(scheme, kappa_, layout_.last_lag);
+  const RadialWeights weights(scheme, kappa_, layout_.last_lag, damping_);
   const int count = layout_.count();
   parallel_for(lanes_.intervals, [&](std::size_t interval) {
     std::vector<double> values(static_cast<std::size_t>(kNodes) * kRadialCount * count);
@@ -147,7 +151,7 @@ LaneTable<float> RadialTable::single_precision() const {
 }
 
 double RadialTable::interpolation_error(const Scheme& scheme, double lam_max) const {
-  const RadialWeights weights(scheme, kappa_, layout_.last_lag);
+  const RadialWeights weights(scheme, kappa_, layout_.last_lag, damping_);
   const int count = layout_.count();
   std::vector<double> errors(lanes_.intervals, 0.0);
   parallel_for(lanes_.intervals, [&](std::size_t interval) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/aligned.hpp"
+#include "base/material.hpp"
 #include "kernels/contour.hpp"
 #include "kernels/radial_functions.hpp"
 
@@ -46,9 +47,10 @@ struct LaneTable {
 class RadialTable {
  public:
   /// Tabulates 0 <= lam <= lam_max to an interpolation error <= tolerance (of values of order one;
-  /// checked against direct evaluation between the nodes). Cost: a few thousand short transforms.
+  /// checked against direct evaluation between the nodes). `damping`: its time in units of dt.
+  /// Cost: a few thousand short transforms.
   RadialTable(const Scheme& scheme, double kappa, double lam_max, int last_lag,
-              double tolerance = 1e-10);
+              double tolerance = 1e-10, const Damping& damping = {});
 
   const LaneLayout& layout() const { return layout_; }
   double kappa() const { return kappa_; }
@@ -65,15 +67,19 @@ class RadialTable {
 
   LaneLayout layout_;
   double kappa_;
+  Damping damping_;
   LaneTable<double> lanes_;
   std::vector<int> static_lanes_;
 };
 
 /// Direct evaluation of what RadialTable tabulates, out[function*layout.count() + lane]: closed
-/// form for BDF1, contour formula for every other scheme.
+/// form for BDF1 without damping, contour formula for everything else. The moduli of a damped
+/// material are m = 1 + s time times those of an elastic one, so that its kernels are those
+/// of the argument s r/(c2 sqrt(m)), and those that have a modulus in their scale (u*, d*, l*) are
+/// divided by m.
 class RadialWeights {
  public:
-  RadialWeights(const Scheme& scheme, double kappa, int last_lag);
+  RadialWeights(const Scheme& scheme, double kappa, int last_lag, const Damping& damping = {});
   void evaluate(double lam, double* out) const;
   const LaneLayout& layout() const { return contour_.layout(); }
 
@@ -83,6 +89,7 @@ class RadialWeights {
   ContourQuadrature contour_;
   bool closed_form_;
   double kappa_;
+  Damping damping_;
 };
 
 }  // namespace bem

@@ -128,6 +128,11 @@ int default_history_length(const Scheme& scheme, double lam) {
   return static_cast<int>(std::floor(lam + 2) + std::ceil(margin * std::sqrt(lam)));
 }
 
+int damped_history_length(double lam, double time) {
+  constexpr double kDeviations = 3, kTimes = 5;
+  return static_cast<int>(std::ceil(kDeviations * std::sqrt(lam * time) + kTimes * time));
+}
+
 int history_length_for_tolerance(const Scheme& scheme, double lam, double tolerance) {
   require(tolerance > 0, "history tolerance is positive");
   const int longest = static_cast<int>(std::ceil(3 * lam + 12 * std::sqrt(lam) + 20));

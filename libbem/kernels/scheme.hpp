@@ -87,6 +87,10 @@ class Scheme {
 /// floor(lam+2) + ceil(m sqrt(lam)) with m = 3 for theta > 0.3, 2 for lam > 15, else 1.
 int default_history_length(const Scheme& scheme, double lam);
 
+/// Steps that material damping adds to a history: it spreads the arrival of waves, and the response
+/// of a point to its own load fades with the retardation time (`time`, in units of dt).
+int damped_history_length(double lam, double time);
+
 /// Smallest n for which the absolute weights of exp(-s r_max/c2) beyond lag n sum to at most
 /// `tolerance`.
 int history_length_for_tolerance(const Scheme& scheme, double lam, double tolerance);

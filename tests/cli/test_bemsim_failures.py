@@ -171,6 +171,23 @@ class Failures(SimulationCase):
             self.assertTrue(np.isfinite(file["bodies/ball/positions"][:]).all())
         self.assertEqual(json.loads(stats.read_text())["outcome"], "failed")
 
+    def test_an_unstable_motion_is_stopped(self):
+        material = {"name": "gum", "density": 1000, "shear_modulus": 1e6, "poisson_ratio": 0.5}
+        (self.folder / "gum.json").write_text(json.dumps(material))
+        program("bemshape", "box", "--size", 1, 1, 1, "--divisions", 2, 2, 2, "-o", self.folder / "cube.obj")
+        program("bemprecomp", self.folder / "cube.obj", self.folder / "gum.json", "-o", self.folder / "cube.bem",
+                "--dt", 0.002, "--window", 1, "--quiet")
+        self.scene.update(time_step=0.002, duration=1, gravity=[0, 0, 0], bodies=[
+            {"name": "cube", "archive": "cube.bem",
+             "tractions": [{"select": "all", "pressure": 1000, "profile": [[0, 1], [0.002, 1], [0.003, 0]]}]}])
+        done = self.simulate(expect=5)
+        self.assertIn('error: body "cube" is deformed', done.stderr)
+        self.assertIn("--window auto", done.stderr)
+        with self.trajectory() as file:
+            x = file["bodies/cube/positions"][:]
+        self.assertGreater(len(x), 5)
+        self.assertLess(np.abs(x).max(), 200)
+
     def test_command_line(self):
         scene = ["scene.json", "-o", "out"]
         for arguments, part in [

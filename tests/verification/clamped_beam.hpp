@@ -21,10 +21,13 @@ const ClampedBeam kStiffClamped{kStiffBeam, 1, 1.501e-3, 5.054};
 /// Mean downward displacement [m] of the free end after each step.
 inline std::vector<double> tip_deflections(const ClampedBeam& beam_spec, int across,
                                            const std::string& scheme, double dt, int steps,
-                                           double window) {
+                                           double window, const bem::Damping& damping = {}) {
   const bem::Material m = beam_spec.material.material();
   const bem::BodyGeometry g = geometry_of(beam(across), kBeamDensity);
-  bem::PrecomputeOptions o = options_for(g, m, scheme, bem::traversal_steps(g, m, dt));
+  const double lam = bem::traversal_steps(g, m, dt);
+  bem::PrecomputeOptions o = options_for(g, m, scheme, lam);
+  o.discretisation.damping = damping;
+  o.discretisation.history_length += bem::damped_history_length(lam, damping.time / dt);
   o.window = window;
   o.measure_growth = window == 0;
   MemorySource source;
@@ -67,11 +70,11 @@ struct Ringing {
 /// First periods after gravity sets in, with 50 steps per period of beam theory; window 0 is
 /// "auto".
 inline Ringing ringing(const ClampedBeam& b, int across, double rest, double window,
-                       const std::string& scheme = "radau2") {
+                       const std::string& scheme = "radau2", const bem::Damping& damping = {}) {
   constexpr int kPeriods = 5;
   const double dt = 0.02 / b.bending1;
   const std::vector<double> tip =
-      tip_deflections(b, across, scheme, dt, 50 * (kPeriods + 1), window);
+      tip_deflections(b, across, scheme, dt, 50 * (kPeriods + 1), window, damping);
   std::vector<double> passages, extremes;  // an extreme after every passage, first a peak
   for (std::size_t n = 1; n < tip.size(); ++n) {
     if ((tip[n - 1] < rest) != (tip[n] < rest)) {

@@ -25,9 +25,9 @@ namespace {
 struct Typed {
   Options options;
   std::string info, verify;
-  std::vector<std::string> diff, damping;
+  std::vector<std::string> diff;
   std::string window = "auto", model = "dynamic", codec = "lowrank", corner_angle = "none",
-              precision = "float32", inverse = "auto";
+              precision = "float32", inverse = "auto", damping = "off";
   std::optional<double> codec_tolerance, compression_ratio;
 };
 
@@ -81,7 +81,9 @@ void add_matrix_options(CLI::App& app, Typed& t) {
                  "double nodes for the tractions of fixed and joined vertices along edges sharper "
                  "than this, or none (none)")
       ->type_name("A");
-  app.add_option("--damping", t.damping, "material damping: not supported yet")->expected(0, -1);
+  app.add_option("--damping", t.damping,
+                 "material damping: kelvin_voigt:T with the retardation time T [s], or off (off)")
+      ->type_name("LAW");
   app.add_option("--mesh-scale", o.mesh_scale, "factor on the coordinates of the mesh (1)")
       ->type_name("F");
 }
@@ -146,6 +148,18 @@ std::optional<double> parse_corner_angle(const std::string& text) {
   refuse("--corner-angle-deg is none or an angle between 0 and 180, not \"" + text + "\"");
 }
 
+Damping parse_damping(const std::string& text) {
+  const std::string law = "kelvin_voigt:";
+  if (text == "off") return {};
+  double time = 0;
+  const char* const end = text.data() + text.size();
+  if (text.compare(0, law.size(), law) == 0) {
+    const auto [rest, code] = std::from_chars(text.data() + law.size(), end, time);
+    if (code == std::errc() && rest == end && std::isfinite(time) && time > 0) return {time};
+  }
+  refuse("--damping is off or kelvin_voigt:T with a time T > 0 [s], not \"" + text + "\"");
+}
+
 /// Refuses unknown names, and options that do not belong together.
 void check_names(const Typed& t) {
   if (t.model != "dynamic" && t.model != "static" && t.model != "rigid")
@@ -171,6 +185,7 @@ void check_static(const Options& o, const Scheme& scheme) {
   if (!scheme.is_multistep())
     refuse("--model static moves its frame by a scheme with one stage: bdf1, bdf2 or theta:T");
   if (o.history || o.history_tolerance) refuse("--model static has no history");
+  if (o.damping.time > 0) refuse("--model static has no damping");
   if (o.inverse == InverseKind::iterative) refuse("--model static needs --inverse dense");
 }
 
@@ -219,13 +234,13 @@ Options checked(const CLI::App& app, Typed& t) {
     o.action = Options::Action::diff;
     o.archives = t.diff;
   } else {
-    if (app.count("--damping") > 0) refuse("--damping is not supported yet; leave it away");
     check_names(t);
     o.model = t.model == "rigid"    ? ModelKind::rigid
               : t.model == "static" ? ModelKind::quasistatic
                                     : ModelKind::dynamic;
     if (o.scheme.empty()) o.scheme = o.model == ModelKind::quasistatic ? "bdf1" : "radau2";
     o.corner_angle_deg = parse_corner_angle(t.corner_angle);
+    o.damping = parse_damping(t.damping);
     o.window = parse_window(t.window);
     o.precision = t.precision == "float32" ? Precision::float32 : Precision::float64;
     o.inverse = parse_inverse(t.inverse);
@@ -261,6 +276,7 @@ std::string Options::canonical_text() const {
     text += " --compression-ratio " + to_text(codec.ratio);
   else
     text += " --codec-tol " + to_text(codec.tolerance);
+  if (damping.time > 0) text += " --damping kelvin_voigt:" + to_text(damping.time);
   if (inverse) text += *inverse == InverseKind::dense ? " --inverse dense" : " --inverse iterative";
   if (loads != "all") text += " --loads " + loads;
   return text + " --corner-angle-deg " + (corner_angle_deg ? to_text(*corner_angle_deg) : "none");

@@ -26,6 +26,7 @@ struct Options {
   Precision precision = Precision::float32;  ///< of codec none
   CodecOptions codec;
   std::optional<double> corner_angle_deg;
+  Damping damping;
   std::optional<InverseKind> inverse;  ///< else by the number of nodes
   std::string loads = "all";           ///< "all", "none" or a file with selections
   double mesh_scale = 1;

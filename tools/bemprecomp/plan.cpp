@@ -76,10 +76,11 @@ void estimate_bytes(bool sample, Plan& plan) {
   plan.archive_bytes = archive_bytes(plan.geometry, plan.options, plan.stored);
 }
 
-int history_length(const Options& o, const Scheme& scheme, double lam) {
+int history_length(const Options& o, const Discretisation& d, double lam) {
   if (o.history) return *o.history;
-  if (o.history_tolerance) return history_length_for_tolerance(scheme, lam, *o.history_tolerance);
-  return default_history_length(scheme, lam);
+  return damped_history_length(lam, d.damping.time / d.dt) +
+         (o.history_tolerance ? history_length_for_tolerance(d.scheme, lam, *o.history_tolerance)
+                              : default_history_length(d.scheme, lam));
 }
 
 double time_step(const Options& o, const Material& material) {
@@ -95,7 +96,7 @@ void plan_history(const Options& o, Plan& plan) {
     throw Error(ErrorCode::usage,
                 "the time step " + to_text(d.dt) + " s is too small: a shear wave takes " +
                     to_text(std::round(plan.lam)) + " steps across the body; use a larger --dt");
-  d.history_length = history_length(o, d.scheme, plan.lam);
+  d.history_length = history_length(o, d, plan.lam);
 }
 
 template <class T>
@@ -156,6 +157,7 @@ Plan make_plan(const Options& o) {
   }
   d.scheme = Scheme::parse(o.scheme);
   d.quadrature_tolerance = o.quadrature_tolerance;
+  d.damping = o.damping;
   plan.options.window = o.window;
   if (o.model == ModelKind::dynamic) d.dt = time_step(o, d.material);
   plan.geometry = read_body(o, d.material.density, plan.warnings);

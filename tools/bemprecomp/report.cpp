@@ -45,6 +45,7 @@ Json scheme_json(const Discretisation& d, double window) {
   json.update({{"history_length", d.history_length},
                {"window", window},
                {"quadrature_tolerance", d.quadrature_tolerance}});
+  if (d.damping.time > 0) json["damping_time"] = d.damping.time;
   return json;
 }
 
@@ -61,6 +62,26 @@ Json report_json(const ModelReport& r) {
             {"traction_response", r.codec_errors.traction_response},
             {"initial_h", r.codec_errors.initial_h},
             {"initial_g", r.codec_errors.initial_g}}}};
+}
+
+/// The shortest time steps with a history of some lengths: "n_max 4: 0.012 s, ...".
+std::string time_steps_text(const Plan& plan) {
+  constexpr double kSearch = 1.0005;  // from one time step to the next shorter one
+  constexpr int kTargets[] = {4, 6, 8, 12, 20, 32};
+  const Discretisation& d = plan.options.discretisation;
+  std::ostringstream text;
+  double lam = 0.1;
+  for (int target : kTargets) {
+    const auto length = [&](double l) {
+      const double dt = plan.lam * d.dt / l;
+      return default_history_length(d.scheme, l) + damped_history_length(l, d.damping.time / dt);
+    };
+    while (length(lam * kSearch) <= target) lam *= kSearch;
+    if (length(lam) > target) continue;
+    text << (text.str().empty() ? "" : ", ") << "n_max " << target << ": " << std::setprecision(3)
+         << plan.lam * d.dt / lam << " s";
+  }
+  return text.str();
 }
 
 /// "name:   value" lines with aligned values.
@@ -165,6 +186,8 @@ void print_matrices(Table& table, const Archive& archive) {
   print_scheme(table, d, r.lam);
   const bool dynamic = archive.kind() == ModelKind::dynamic;
   if (dynamic) table.line("window", archive.window());
+  if (d.damping.time > 0)
+    table.line("damping", "Kelvin-Voigt, retardation time ", d.damping.time, " s");
   table.line("matrices", archive.matrix_paths().size(), " of ", archive.unknowns(), " x ",
              archive.unknowns(), ", codec ", codec_name(archive.codec()),
              archive.codec() == Codec::none
@@ -207,6 +230,7 @@ void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
   if (plan.options.kind == ModelKind::dynamic) {
     table.line("lam", plan.lam);
     table.line("n_max", d.history_length);
+    table.line("time steps", time_steps_text(plan));
   }
   table.line("memory", bytes_text(plan.stored), " of matrices, ", bytes_text(plan.peak),
              " at most (the machine has ", bytes_text(static_cast<double>(physical_memory())), ")");

@@ -7,8 +7,9 @@ using namespace bem;
 
 namespace {
 
-double worst_difference(const RadialTable& table, const Scheme& scheme, double lam_max) {
-  const RadialWeights direct(scheme, table.kappa(), table.layout().last_lag);
+double worst_difference(const RadialTable& table, const Scheme& scheme, double lam_max,
+                        const Damping& damping = {}) {
+  const RadialWeights direct(scheme, table.kappa(), table.layout().last_lag, damping);
   const int lanes = table.layout().count();
   std::vector<double> exact(kRadialCount * lanes), value(kRadialCount * table.lanes().padded_lanes);
   double worst = 0;
@@ -36,6 +37,31 @@ TEST_CASE("tables interpolate every scheme to 1e-10 of the static kernel") {
         INFO(name << ", nu " << nu << ", lam " << lam << ", intervals " << table.lanes().intervals);
         CHECK(worst_difference(table, scheme, lam) < 2e-10);
       }
+}
+
+TEST_CASE("weights of damped materials") {
+  for (const char* name : {"bdf1", "radau2"}) {
+    const Scheme scheme = Scheme::parse(name);
+    const int last = 40;
+    const Damping damping{0.3}, faint{1e-10};
+    const RadialTable table(scheme, 0.2, 3.5, last, 1e-10, damping);
+    CHECK(worst_difference(table, scheme, 3.5, damping) < 2e-10);
+    CHECK(worst_difference(table, scheme, 3.5, {}) > 1e-3);
+    const RadialTable without(scheme, 0.2, 3.5, last, 1e-10, faint);
+    CHECK(worst_difference(without, scheme, 3.5, {}) < 1e-8);
+    // all weights add up to the static function, which damping does not change
+    const std::vector<double> factors = static_lane_factors(scheme, table.layout());
+    const RadialValues<double> rest = static_radial_values(0.2);
+    const RadialWeights weights(scheme, 0.2, last, damping);
+    std::vector<double> values(kRadialCount * table.layout().count());
+    weights.evaluate(2.1, values.data());
+    for (int f = 0; f < kRadialCount; ++f) {
+      double sum = 0;
+      for (std::size_t lane = 0; lane < factors.size(); ++lane)
+        sum += factors[lane] * values[f * factors.size() + lane];
+      CHECK(std::abs(sum - rest[f]) < 1e-12);
+    }
+  }
 }
 
 TEST_CASE("the contour formula reproduces the closed form of BDF1") {
