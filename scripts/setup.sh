@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Installs what building, testing and drawing need on Debian 12, and does nothing where all of it
+# Installs what building, running and drawing need on Debian 12, and does nothing where all of it
 # is there. ffmpeg (videos) and Siconos (a comparison in the benchmarks) are optional: without them
 # there is only a warning.
 set -euo pipefail
 
-usage="usage: scripts/setup.sh [--bench] [--lint] [--npm]
+usage="usage: scripts/setup.sh [--test] [--bench] [--lint] [--npm]
+  --test   also what the tests need to read output as other programs do
   --bench  also what the benchmarks need, and Siconos to compare with
   --lint   also clang-format and clang-tidy
   --npm    also npm, which fetches example meshes"
@@ -23,6 +24,7 @@ packages=(
 optional=(ffmpeg)
 for argument in "$@"; do
   case "$argument" in
+    --test) packages+=(python3-vtk9) ;;
     --bench) packages+=(libbenchmark-dev libopenblas-dev); optional+=(libsiconos-numerics-dev) ;;
     --lint) packages+=(clang-format clang-tidy) ;;
     --npm) command -v npm >/dev/null || packages+=(nodejs npm) ;;

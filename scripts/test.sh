@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-./scripts/setup.sh
+./scripts/setup.sh --test
 cmake --preset release -DBEM_BUILD_TESTS=ON
 cmake --build --preset release --parallel "$(nproc)"
 

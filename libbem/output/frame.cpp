@@ -20,6 +20,11 @@ void check_bodies(const std::vector<TrajectoryBody>& bodies) {
   }
 }
 
+void check_rest(const std::vector<TrajectoryBody>& bodies) {
+  for (const TrajectoryBody& body : bodies)
+    require(body.rest.size() == body.vertices, "a body brings every vertex of its mesh");
+}
+
 void check_frame(const std::vector<TrajectoryBody>& bodies, const Frame& frame) {
   require(frame.bodies.size() == bodies.size(), "a frame holds every body");
   for (std::size_t i = 0; i < bodies.size(); ++i) {

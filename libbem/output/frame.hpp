@@ -14,6 +14,7 @@ struct TrajectoryBody {
   std::size_t vertices = 0;         ///< of the input mesh
   std::vector<Triangle> triangles;  ///< of the input mesh, as it lists them
   bool tractions = false;           ///< frames bring tractions that are to be written
+  std::vector<Vec3> rest = {};      ///< vertices of the input mesh [m]; some formats need them
 };
 
 /// One body at one time.
@@ -55,6 +56,9 @@ class FrameWriter {
 
 /// Checks names and triangles of the bodies; throws ErrorCode::internal.
 void check_bodies(const std::vector<TrajectoryBody>& bodies);
+
+/// Checks that the bodies bring the vertices of their meshes; throws ErrorCode::internal.
+void check_rest(const std::vector<TrajectoryBody>& bodies);
 
 /// Checks that a frame has the sizes of the bodies; throws ErrorCode::internal.
 void check_frame(const std::vector<TrajectoryBody>& bodies, const Frame& frame);

@@ -4,7 +4,6 @@
 #include "output/frame.hpp"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace bem {
@@ -12,11 +11,8 @@ namespace bem {
 /// Folder of the frames in the output directory.
 inline constexpr const char* kObjFolder = "obj";
 
-/// File name of one body in one frame: NAME_000000.obj, with more digits where they are needed.
-std::string obj_frame_name(const std::string& body, std::size_t frame);
-
-/// Is this the name of a file that an ObjSequence writes, of whatever body?
-bool is_obj_frame_name(std::string_view file_name);
+/// Extension of the frames.
+inline constexpr const char* kObjExtension = ".obj";
 
 /// Writes OUT_DIR/obj/NAME_000000.obj, one file for each body and frame: vertices and faces of the
 /// input mesh in their order, world coordinates [m] as the shortest decimals that read back to the

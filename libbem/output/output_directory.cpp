@@ -1,28 +1,56 @@
 #include "output/output_directory.hpp"
 
 #include "base/error.hpp"
+#include "output/frame_files.hpp"
 #include "output/hdf5_trajectory.hpp"
 #include "output/obj_sequence.hpp"
+#include "output/point_cache.hpp"
+#include "output/vtp_sequence.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <set>
-#include <string_view>
 
 namespace bem {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// Is there the cache that a mesh in the folder of caches belongs to? Others are not ours.
+bool belongs_to_cache(fs::path mesh) {
+  if (mesh.extension() == temporary_name("")) mesh.replace_extension();
+  std::error_code ignored;
+  return mesh.extension() == kPointCacheMeshExtension &&
+         fs::exists(mesh.replace_extension(kPointCacheExtension), ignored);
+}
+
+bool is_point_cache_file(const fs::path& path) {
+  const std::string cache = kPointCacheExtension, name = path.filename().string();
+  const auto ends_with = [&](const std::string& end) {
+    return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+  };
+  return ends_with(cache) || ends_with(temporary_name(cache)) || belongs_to_cache(path);
+}
+
 /// Where an output format puts its files, and how they are recognised.
 struct FormatFiles {
   const char* folder;  ///< in the output directory; "" is that itself
-  bool (*recognise)(std::string_view file_name);
+  bool (*recognise)(const fs::path& path);
 };
 
 constexpr FormatFiles kFormats[] = {
-    {"", [](std::string_view name) { return name == kTrajectoryFile; }},
-    {kObjFolder, is_obj_frame_name},
+    {"", [](const fs::path& path) { return path.filename() == kTrajectoryFile; }},
+    {kObjFolder,
+     [](const fs::path& path) {
+       return is_frame_file_name(path.filename().string(), kObjExtension);
+     }},
+    {kVtpFolder,
+     [](const fs::path& path) {
+       const std::string name = path.filename().string();
+       return is_frame_file_name(name, kVtpExtension) || name == kPvdFile ||
+              name == temporary_name(kPvdFile);
+     }},
+    {kPointCacheFolder, is_point_cache_file},
 };
 
 void remove_file(const std::string& path) {
@@ -52,8 +80,7 @@ std::vector<std::string> find_output(const std::string& directory) {
     std::error_code ended;
     for (fs::directory_iterator it(folder, ended), end; !ended && it != end; it.increment(ended)) {
       std::error_code ignored;
-      if (format.recognise(it->path().filename().string()) &&
-          !fs::is_directory(it->symlink_status(ignored)))
+      if (format.recognise(it->path()) && !fs::is_directory(it->symlink_status(ignored)))
         files.push_back(it->path().string());
     }
   }

@@ -126,12 +126,6 @@ class Failures(SimulationCase):
         with self.trajectory() as file:
             self.assertEqual(len(file["time"]), 3)
 
-    def test_parts_that_are_not_simulated_yet(self):
-        for name in ("vtp", "pc2"):
-            with self.subTest(name):
-                done = self.simulate(expect=3, scene={**self.scene, "output": {"formats": [name]}})
-                self.assert_error(done, "scene.json:", "/output", "not yet supported")
-
     def test_joints_that_do_not_fit(self):
         self.scene["bodies"].append({**falling_ball(), "name": "other", "position": [5, 0, 0]})
         ends = {"a": {"body": "ball"}, "b": {"body": "other"}}

@@ -161,30 +161,5 @@ class Schedule(SimulationCase):
             self.assertIn(f" {frames} frame", plan)
 
 
-class Formats(SimulationCase):
-    def test_obj_equals_hdf5(self):
-        self.scene["bodies"].append(held_ball())
-        self.simulate("--format", "obj,hdf5", "--every", 5)
-        files = sorted(path.name for path in (self.out / "obj").iterdir())
-        self.assertEqual(files, [f"{name}_{k:06}.obj" for name in ("ball", "held") for k in range(5)])
-        with self.trajectory() as file:
-            for name, body in file["bodies"].items():
-                for k in range(5):
-                    vertices, faces = read_obj(self.out / "obj" / f"{name}_{k:06}.obj")
-                    np.testing.assert_array_equal(vertices, body["positions"][k])
-                    np.testing.assert_array_equal(faces, body["faces"])
-
-    def test_option_replaces_the_formats_of_the_scene(self):
-        self.scene["output"] = {"formats": ["hdf5", "vtp"]}
-        self.simulate("--format", "obj", "--steps", 1)
-        self.assertEqual([path.name for path in self.out.iterdir()], ["obj"])
-
-    def test_formats_that_do_not_exist_yet(self):
-        for name in ("vtp", "pc2"):
-            done = self.simulate("--format", name, expect=3)
-            self.assert_error(done, name, "not yet supported")
-            self.assertFalse(self.out.exists())
-
-
 if __name__ == "__main__":
     unittest.main()

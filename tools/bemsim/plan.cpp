@@ -6,7 +6,6 @@
 #include "contact/joints.hpp"
 #include "dynamics/selection.hpp"
 #include "mesh/describe.hpp"
-#include "scene/unsupported.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,8 +136,6 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
   auto plan = std::make_unique<Plan>();
   plan->scene = std::move(scene);
   apply_options(options, *plan);
-  if (const auto unsupported = first_unsupported(plan->scene))
-    throw error_at(unsupported->first, unsupported->second);
   std::vector<const BodyGeometry*> geometries;
   for (const BodySpec& body : plan->scene.bodies) {
     plan->bodies.push_back(plan_body(plan->scene, body, source));

@@ -7,6 +7,8 @@
 #include "output/hdf5_trajectory.hpp"
 #include "output/obj_sequence.hpp"
 #include "output/output_directory.hpp"
+#include "output/point_cache.hpp"
+#include "output/vtp_sequence.hpp"
 #include "stats.hpp"
 
 #include <algorithm>
@@ -23,22 +25,31 @@ bool writes_tractions(const Scene& scene) {
   return std::find(fields.begin(), fields.end(), OutputField::tractions) != fields.end();
 }
 
+std::unique_ptr<FrameWriter> make_writer(OutputFormat format, const std::string& directory,
+                                         const std::vector<TrajectoryBody>& bodies) {
+  switch (format) {
+    case OutputFormat::hdf5:
+      return std::make_unique<Hdf5Trajectory>(directory, bodies);
+    case OutputFormat::obj:
+      return std::make_unique<ObjSequence>(directory, bodies);
+    case OutputFormat::vtp:
+      return std::make_unique<VtpSequence>(directory, bodies);
+    case OutputFormat::pc2:
+      return std::make_unique<PointCache>(directory, bodies);
+  }
+  throw Error(ErrorCode::internal, "no writer for the format " + format_name(format));
+}
+
 Writers make_writers(const Plan& plan, const std::string& directory) {
   std::vector<TrajectoryBody> bodies;
   for (const PlannedBody& body : plan.bodies) {
     const TriangleMesh& mesh = body.archive->geometry().input;
-    bodies.push_back(
-        {body.spec->name, mesh.vertices.size(), mesh.triangles, writes_tractions(plan.scene)});
+    bodies.push_back({body.spec->name, mesh.vertices.size(), mesh.triangles,
+                      writes_tractions(plan.scene), mesh.vertices});
   }
   Writers writers;
-  for (OutputFormat format : plan.scene.output.formats) {
-    if (format == OutputFormat::hdf5)
-      writers.push_back(std::make_unique<Hdf5Trajectory>(directory, bodies));
-    else if (format == OutputFormat::obj)
-      writers.push_back(std::make_unique<ObjSequence>(directory, bodies));
-    else
-      throw Error(ErrorCode::internal, "no writer for the format " + format_name(format));
-  }
+  for (OutputFormat format : plan.scene.output.formats)
+    writers.push_back(make_writer(format, directory, bodies));
   return writers;
 }
 

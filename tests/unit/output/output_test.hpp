@@ -4,13 +4,16 @@
 #include "support/temporary_folder.hpp"
 #include "unit/mesh/mesh_test.hpp"
 
+#include <algorithm>
+
 namespace bem::test {
 
 /// Two bodies, a tetrahedron with tractions and a larger one without.
 inline std::vector<TrajectoryBody> sample_bodies() {
   const TriangleMesh small = unit_tetrahedron();
-  TrajectoryBody first{"small", small.vertices.size(), small.triangles, true};
+  TrajectoryBody first{"small", small.vertices.size(), small.triangles, true, small.vertices};
   TrajectoryBody second{"large one", 3000, {{0, 1, 2}, {2999, 1, 0}}, false};
+  for (int v = 0; v < 3000; ++v) second.rest.push_back(Vec3(v, 2 - v, 0.25 * v));
   return {first, second};
 }
 
@@ -30,6 +33,15 @@ inline Frame sample_frame(std::size_t index) {
     frame.bodies.push_back(state);
   }
   return frame;
+}
+
+/// Names of what is in a folder, sorted.
+inline std::vector<std::string> names_in(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace bem::test

@@ -1,24 +1,12 @@
 #include "mesh/mesh_io.hpp"
+#include "output/frame_files.hpp"
 #include "output/obj_sequence.hpp"
 #include "output_test.hpp"
-
-#include <algorithm>
 
 using namespace bem;
 using Catch::Matchers::StartsWith;
 using test::error_message;
-
-namespace {
-
-std::vector<std::string> names_in(const std::string& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-}  // namespace
+using test::names_in;
 
 TEST_CASE("OBJ frames hold the vertices and faces of the mesh, bit by bit") {
   const test::TemporaryFolder folder("obj_sequence");
@@ -32,7 +20,8 @@ TEST_CASE("OBJ frames hold the vertices and faces of the mesh, bit by bit") {
                                  "small_000012.obj"});
   for (const std::size_t index : {0, 12})
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const TriangleMesh mesh = read_mesh(folder / "obj/" + obj_frame_name(bodies[b].name, index));
+      const TriangleMesh mesh =
+          read_mesh(folder / "obj/" + frame_file_name(bodies[b].name, index, ".obj"));
       CHECK(mesh.vertices == test::sample_frame(index).bodies[b].positions);
       CHECK(mesh.triangles == bodies[b].triangles);
     }
@@ -48,16 +37,6 @@ TEST_CASE("an OBJ frame replaces an older one") {
   const std::string after = test::read_file(folder / "obj/small_000000.obj");
   CHECK_THAT(after, StartsWith("v 7 8 9\n"));
   CHECK(after != before);
-}
-
-TEST_CASE("names of OBJ frames") {
-  CHECK(obj_frame_name("a", 7) == "a_000007.obj");
-  CHECK(obj_frame_name("a_b", 1234567) == "a_b_1234567.obj");
-  for (const char* name : {"a_000000.obj", "a_b_1234567.obj", "a_000001.obj.tmp", "__000000.obj"})
-    CHECK(is_obj_frame_name(name));
-  for (const char* name : {"a.obj", "a_00000.obj", "_000000.obj", "000000.obj", "a000000.obj",
-                           "a_000000.stl", "a_00000x.obj", "", ".obj", "a_000000.obj.bak"})
-    CHECK_FALSE(is_obj_frame_name(name));
 }
 
 TEST_CASE("OBJ frames that cannot be written are a resource error") {

@@ -1,6 +1,8 @@
 #include "output/hdf5_trajectory.hpp"
 #include "output/obj_sequence.hpp"
 #include "output/output_directory.hpp"
+#include "output/point_cache.hpp"
+#include "output/vtp_sequence.hpp"
 #include "output_test.hpp"
 
 using namespace bem;
@@ -14,7 +16,9 @@ namespace {
 void write_everything(const std::string& directory) {
   Hdf5Trajectory hdf5(directory, test::sample_bodies());
   ObjSequence obj(directory, test::sample_bodies());
-  for (FrameWriter* writer : std::initializer_list<FrameWriter*>{&hdf5, &obj}) {
+  VtpSequence vtp(directory, test::sample_bodies());
+  PointCache pc2(directory, test::sample_bodies());
+  for (FrameWriter* writer : std::initializer_list<FrameWriter*>{&hdf5, &obj, &vtp, &pc2}) {
     writer->write(test::sample_frame(0));
     writer->close();
   }
@@ -64,15 +68,19 @@ TEST_CASE("earlier output is refused, whichever format it has") {
 TEST_CASE("replacing removes all that the writers write and nothing else") {
   const test::TemporaryFolder folder("output_replace");
   write_everything(folder.path());
-  CHECK(find_output(folder.path()).size() == 3);
-  const std::vector<std::string> mine = {"notes.txt", "trajectory.h5.old", "x_000000.obj",
-                                         "obj/bunny.obj"};
+  CHECK(find_output(folder.path()).size() == 1 + 2 + 3 + 4);
+  const std::vector<std::string> mine = {
+      "notes.txt",     "trajectory.h5.old", "x_000000.obj", "obj/bunny.obj", "vtp/bunny.vtp",
+      "vtp/other.pvd", "trajectory.pvd",    "x.pc2",        "pc2/bunny.obj", "pc2/.pc2"};
   for (const std::string& name : mine) touch(folder / name);
   fs::create_directory(folder / "obj/folder_000000.obj");
-  touch(folder / "obj/small_000003.obj.tmp");
+  const std::vector<std::string> left = {"obj/small_000003.obj.tmp", "vtp/small_000003.vtp.tmp",
+                                         "vtp/trajectory.pvd.tmp", "pc2/small.obj.tmp",
+                                         "pc2/other.pc2.tmp"};
+  for (const std::string& name : left) touch(folder / name);
   prepare_output_directory(folder.path(), ExistingOutput::replace);
   CHECK(find_output(folder.path()).empty());
-  CHECK_FALSE(fs::exists(folder / "obj/small_000003.obj.tmp"));
+  for (const std::string& name : left) CHECK_FALSE(fs::exists(folder / name));
   CHECK_FALSE(fs::exists(folder / "trajectory.h5"));
   for (const std::string& name : mine) CHECK(test::read_file(folder / name) == "mine");
   CHECK(fs::is_directory(folder / "obj/folder_000000.obj"));
@@ -83,7 +91,7 @@ TEST_CASE("a folder that replacing empties goes too, other empty ones stay") {
   write_everything(folder.path());
   fs::create_directory(folder / "empty");
   prepare_output_directory(folder.path(), ExistingOutput::replace);
-  CHECK_FALSE(fs::exists(folder / "obj"));
+  for (const char* name : {"obj", "vtp", "pc2"}) CHECK_FALSE(fs::exists(folder / name));
   fs::create_directory(folder / "obj");
   touch(folder / "trajectory.h5");
   prepare_output_directory(folder.path() + "/", ExistingOutput::replace);

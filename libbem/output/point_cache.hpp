@@ -1,0 +1,44 @@
+#pragma once
+
+#include "output/frame.hpp"
+#include "output/growing_file.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bem {
+
+/// Folder of the caches in the output directory, and the extensions of what is in it.
+inline constexpr const char* kPointCacheFolder = "pc2";
+inline constexpr const char* kPointCacheExtension = ".pc2";
+inline constexpr const char* kPointCacheMeshExtension = ".obj";
+
+/// Writes OUT_DIR/pc2/NAME.pc2 for each body, a Point Cache 2 as Blender and Houdini read it, and
+/// OUT_DIR/pc2/NAME.obj, the mesh that it moves: the rest shape where the body's frame is in frame
+/// 0, vertices and faces of the input mesh in their order.
+///
+///   char[12] "POINTCACHE2\0", int32 version 1, int32 vertices, float32 first frame 0,
+///   float32 sampling 1 (sample k is frame k), int32 samples; then by sample and vertex
+///   3 float32, the world position [m]
+///
+/// all little-endian. The number of samples is right at every moment: it is written after them.
+/// Single precision is the format's; times are not in it.
+class PointCache : public FrameWriter {
+ public:
+  /// Creates the folder in an existing directory, and caches without samples. The bodies bring
+  /// their rest shapes. Throws ErrorCode::resources.
+  PointCache(const std::string& directory, const std::vector<TrajectoryBody>& bodies);
+
+  void write(const Frame& frame) override;
+  void close() override;
+
+ private:
+  void write_meshes(const Frame& first) const;
+
+  std::vector<TrajectoryBody> bodies_;
+  std::string folder_;
+  std::vector<GrowingFile> files_;  ///< by body
+  std::size_t frames_ = 0;          ///< written so far
+};
+
+}  // namespace bem

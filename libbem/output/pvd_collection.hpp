@@ -1,0 +1,36 @@
+#pragma once
+
+#include "output/growing_file.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bem {
+
+/// A ParaView data collection (.pvd): which files show which part at which time.
+///
+/// The file is complete XML from its creation on: one write replaces its closing tags by new
+/// entries and the closing tags, so that a frame costs the same however many there are.
+class PvdCollection {
+ public:
+  /// Creates the file without entries, replacing an existing one. Throws ErrorCode::resources.
+  explicit PvdCollection(const std::string& path);
+
+  struct Entry {
+    std::string file;  ///< relative to the folder of the collection
+    std::string name;  ///< of the part
+  };
+  /// Adds the parts 0, 1, ... of a time [s]. Throws ErrorCode::resources.
+  void add(double time, const std::vector<Entry>& parts);
+  void close() { file_.close(); }
+
+ private:
+  GrowingFile file_;
+  std::uint64_t end_;  ///< of the entries
+};
+
+/// Text with the characters replaced that mean something in XML.
+std::string xml_text(std::string_view text);
+
+}  // namespace bem

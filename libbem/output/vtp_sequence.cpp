@@ -1,0 +1,107 @@
+#include "output/vtp_sequence.hpp"
+
+#include "base/error.hpp"
+#include "mesh/describe.hpp"
+#include "output/frame_files.hpp"
+
+#include <cstdint>
+
+namespace bem {
+namespace {
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "vectors are stored without gaps");
+static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t), "triangles are stored without gaps");
+
+std::string folder_of(const std::string& directory) {
+  std::string folder = directory + "/" + kVtpFolder;
+  create_folder(folder);
+  return folder;
+}
+
+/// The numbers behind the XML: each array after its length in bytes, found by its offset.
+class AppendedData {
+ public:
+  /// Appends an array; returns the element that describes it.
+  template <class T>
+  std::string add(const char* type, const char* name, int components,
+                  const std::vector<T>& values) {
+    const std::string element = std::string("<DataArray type=\"") + type + "\" Name=\"" + name +
+                                "\" NumberOfComponents=\"" + std::to_string(components) +
+                                "\" format=\"appended\" offset=\"" + std::to_string(bytes_.size()) +
+                                "\"/>\n";
+    const std::uint64_t size = values.size() * sizeof(T);
+    bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes_.append(reinterpret_cast<const char*>(values.data()), size);
+    return element;
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+std::vector<Vec3> deformation(const std::vector<Vec3>& rest, const BodyFrame& state) {
+  std::vector<Vec3> out;
+  out.reserve(rest.size());
+  for (std::size_t v = 0; v < rest.size(); ++v)
+    out.push_back(state.positions[v] - (state.translation + state.rotation * rest[v]));
+  return out;
+}
+
+/// Where each triangle ends in the list of corners.
+std::vector<std::int32_t> triangle_ends(std::size_t triangles) {
+  std::vector<std::int32_t> ends;
+  for (std::size_t t = 1; t <= triangles; ++t) ends.push_back(static_cast<std::int32_t>(3 * t));
+  return ends;
+}
+
+}  // namespace
+
+VtpSequence::VtpSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies)
+    : bodies_((check_bodies(bodies), check_rest(bodies), bodies)),
+      folder_(folder_of(directory)),
+      list_(folder_ + "/" + kPvdFile) {}
+
+std::string VtpSequence::file_contents(std::size_t body, const BodyFrame& state,
+                                       double time) const {
+  const TrajectoryBody& b = bodies_[body];
+  AppendedData data;
+  std::string xml =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n"
+      "<PolyData>\n"
+      "<FieldData>\n"
+      "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
+      to_text(time) +
+      "</DataArray>\n"
+      "</FieldData>\n"
+      "<Piece NumberOfPoints=\"" +
+      std::to_string(b.vertices) +
+      "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+      std::to_string(b.triangles.size()) + "\">\n";
+  xml += "<PointData Vectors=\"deformation\">\n" +
+         data.add("Float64", "deformation", 3, deformation(b.rest, state));
+  if (b.tractions) xml += data.add("Float64", "tractions", 3, state.tractions);
+  xml += "</PointData>\n<Points>\n" + data.add("Float64", "Points", 3, state.positions);
+  xml += "</Points>\n<Polys>\n" + data.add("Int32", "connectivity", 1, b.triangles) +
+         data.add("Int32", "offsets", 1, triangle_ends(b.triangles.size()));
+  xml += "</Polys>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  return xml + data.bytes() + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+void VtpSequence::write(const Frame& frame) {
+  check_frame(bodies_, frame);
+  require(frame.index == frames_, "frames are written in their order");
+  std::vector<PvdCollection::Entry> parts;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const std::string& name = bodies_[i].name;
+    parts.push_back({frame_file_name(name, frame.index, kVtpExtension), name});
+    publish(folder_ + "/" + parts.back().file, file_contents(i, frame.bodies[i], frame.time));
+  }
+  // Only then the list: what it names is there.
+  list_.add(frame.time, parts);
+  ++frames_;
+}
+
+}  // namespace bem

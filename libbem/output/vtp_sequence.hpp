@@ -1,0 +1,43 @@
+#pragma once
+
+#include "output/frame.hpp"
+#include "output/pvd_collection.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bem {
+
+/// Folder of the frames in the output directory, their extension, and the file that lists them.
+inline constexpr const char* kVtpFolder = "vtp";
+inline constexpr const char* kVtpExtension = ".vtp";
+inline constexpr const char* kPvdFile = "trajectory.pvd";
+
+/// Writes OUT_DIR/vtp/NAME_000000.vtp, one file for each body and frame, and
+/// OUT_DIR/vtp/trajectory.pvd, which lists them with their times [s] and the bodies as parts 0, 1,
+/// ... in their order: what ParaView opens.
+///
+/// A .vtp file is XML PolyData whose numbers are appended as raw bytes: points (float64, world
+/// [m]) and polygons are the vertices and triangles of the input mesh in their order; the point
+/// data are "deformation", the position less where the body's frame takes the rest shape (float64,
+/// world [m]), and where asked for "tractions" (float64, world [Pa]). The field data have the time
+/// as "TimeValue". A file appears under its name when it is complete, and in the list after that.
+class VtpSequence : public FrameWriter {
+ public:
+  /// Creates the folder in an existing directory, and an empty list. The bodies bring their rest
+  /// shapes. Throws ErrorCode::resources.
+  VtpSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies);
+
+  void write(const Frame& frame) override;
+  void close() override { list_.close(); }
+
+ private:
+  std::string file_contents(std::size_t body, const BodyFrame& state, double time) const;
+
+  std::vector<TrajectoryBody> bodies_;
+  std::string folder_;
+  PvdCollection list_;
+  std::size_t frames_ = 0;  ///< written so far
+};
+
+}  // namespace bem
