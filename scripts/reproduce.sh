@@ -19,7 +19,7 @@ sys.path.insert(0, 'scripts')
 from paper.catalogue import FIGURES, SCENES
 for figure in FIGURES:
     print(f'    {figure:6}', ', '.join(name for name, scene in SCENES.items() if scene.figure == figure))"
-    echo "  tables         runs nothing: the tables of what is there
+    echo "  tables         runs no scene, measures and draws again what has been run
   --small        coarse meshes and few steps: everything in a few minutes, in out/paper/small
   --threads N    of bemsim (1, as in the paper)
   --scheme NAME  of the archives (bdf1, as in the paper), in out/paper/NAME

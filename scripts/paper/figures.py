@@ -20,7 +20,8 @@ def touching(workspace, name):
     """What bemmeasure says of a run."""
     found = workspace.load(f"{name}.measure")
     bodies = found["bodies"]
-    return {"worst_penetration_of_size": found["worst_penetration_of_size"],
+    pairs = sorted([pair["of_size"] for pair in found["penetration"].values()] + [0.0, 0.0])
+    return {"next_penetration_of_size": pairs[-2], "worst_penetration_of_size": found["worst_penetration_of_size"],
             "way": [[b - a for a, b in zip(body["start"], body["end"])] for body in bodies],
             "fastest_vertex_at_end": max(body["end_speed_of_fastest_vertex"] for body in bodies)}
 
@@ -119,7 +120,7 @@ def draw_fig6(workspace, runs, target):
              for k, (name, motion) in enumerate(runs.items())]
     pictures.join(workspace.folder / "fig6.h5", poses)
     pictures.render(workspace.folder / "fig6.h5", target / "fig6.png", "--color", "deformation", "--view", "20,20",
-                    "--size", "1000x230", *FLAT)
+                    "--size", "1000x200", *FLAT)
     return ["fig6.png"]
 
 
@@ -129,7 +130,7 @@ def draw_fig8(workspace, runs, target):
     rows = [(f"friction {name[-3:]}", motion, (0, 0, 0.24 * k)) for k, (name, motion) in enumerate(runs.items())]
     pictures.join_runs(workspace.folder / "fig8.h5", rows, times)
     pictures.render(workspace.folder / "fig8.h5", target / "fig8.png", "--color", "body", "--view", "8,32",
-                    "--size", "860x560", "--obstacle-plane", "y=0", "--ghosts", len(times) - 1, "--no-time")
+                    "--size", "700x440", "--obstacle-plane", "y=0", "--ghosts", len(times) - 1, "--no-time")
     return ["fig8.png"]
 
 

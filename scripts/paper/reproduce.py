@@ -19,7 +19,7 @@ DOCUMENT, IMAGES = ROOT / "docs/paper.md", ROOT / "docs/images/paper"
 def arguments():
     parser = argparse.ArgumentParser(prog="reproduce.sh", description="Runs scenes of the paper and measures them.")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"scenes ({', '.join(SCENES)}), figures "
-                        f"({', '.join(FIGURES)}), all, or tables: those of what is there")
+                        f"({', '.join(FIGURES)}), all, or tables: measures and draws again what has been run")
     parser.add_argument("--small", action="store_true", help="coarse meshes and few steps: all of it in minutes")
     parser.add_argument("--threads", type=int, default=1, metavar="N", help="of bemsim (1, as in the paper)")
     parser.add_argument("--scheme", default="bdf1", help="of the archives (bdf1, as in the paper)")
@@ -38,14 +38,13 @@ def arguments():
     return options
 
 
-def programs(needed):
+def programs():
     """The folder of the programs; builds them unless BEM_BIN names it."""
     if os.environ.get("BEM_BIN"):
         return pathlib.Path(os.environ["BEM_BIN"]).resolve()
-    if needed:
-        subprocess.run(["cmake", "--preset", "release"], cwd=ROOT, check=True)
-        subprocess.run(["cmake", "--build", "--preset", "release", "--parallel", str(os.cpu_count()), "--target",
-                        "bemprecomp", "bemsim", "bemshape", "bemmeasure", "bemrecode"], cwd=ROOT, check=True)
+    subprocess.run(["cmake", "--preset", "release"], cwd=ROOT, check=True)
+    subprocess.run(["cmake", "--build", "--preset", "release", "--parallel", str(os.cpu_count()), "--target",
+                    "bemprecomp", "bemsim", "bemshape", "bemmeasure", "bemrecode"], cwd=ROOT, check=True)
     return ROOT / "build/release/bin"
 
 
@@ -57,13 +56,13 @@ def folder(options):
 
 def main():
     options = arguments()
-    workspace = Workspace(folder(options), programs(options.scenes), options.small, options.threads, options.scheme)
+    workspace = Workspace(folder(options), programs(), options.small, options.threads, options.scheme)
     for name in options.scenes:
         print(f"== {name}", file=sys.stderr)
         workspace.prepare(name)
         workspace.simulate(name)
-    chosen = list(dict.fromkeys(SCENES[name].figure for name in options.scenes))
-    for figure in chosen:
+    chosen = {SCENES[name].figure for name in options.scenes}
+    for figure in FIGURES if "tables" in options.names else sorted(chosen):
         figures.measure(workspace, figure)
         figures.draw(workspace, figure)
     found = tables.parts(workspace)

@@ -3,8 +3,10 @@ import hashlib
 import json
 import os
 import pathlib
+import resource
 import subprocess
 import sys
+import time
 
 from .catalogue import BODIES, OBSTACLES, SCENES
 
@@ -19,6 +21,32 @@ class Failed(Exception):
     def __init__(self, code):
         super().__init__(f"exit code {code}")
         self.code = code
+
+
+class OtherLoad:
+    """How much of the machine others use while programs run here."""
+
+    def __init__(self):
+        self.start = self._now()
+
+    @staticmethod
+    def _now():
+        """Wall seconds, busy CPU seconds of the machine, and those of our children; without /proc the last two
+        are equal."""
+        own = resource.getrusage(resource.RUSAGE_CHILDREN)
+        own = own.ru_utime + own.ru_stime
+        try:
+            with open("/proc/stat", encoding="ascii") as file:
+                user, nice, system, _, _, *rest = map(int, file.readline().split()[1:])
+            busy = (user + nice + system + sum(rest[:3])) / os.sysconf("SC_CLK_TCK")
+        except (OSError, ValueError):
+            busy = own
+        return time.monotonic(), busy, own
+
+    def cores(self):
+        """Mean number of cores in use by others since the start."""
+        wall, busy, own = (b - a for a, b in zip(self.start, self._now()))
+        return max(busy - own, 0.0) / max(wall, 1e-3)
 
 
 class Workspace:
@@ -120,9 +148,10 @@ class Workspace:
         self.archive(scene.body)
 
     def simulate(self, name, steps=None):
-        """Runs a scene whose archive is there; statistics with the load of the machine beside them."""
+        """Runs a scene whose archive is there; its statistics with what others use of the machine."""
         scene, file = SCENES[name], self.scene_file(name)
         count = steps or (scene.small_steps if self.small else None)
+        others = OtherLoad()
         try:
             self.run("bemsim", file, "-o", self.folder / name, "--force", "--threads", self.threads,
                      "--stats", self.folder / f"{name}.stats.json", *(["--steps", count] if count else []))
@@ -131,7 +160,7 @@ class Workspace:
                 raise
             print(f"warning: {name} ended early", file=sys.stderr)
         stats = self.load(f"{name}.stats")
-        stats["load_average"] = os.getloadavg()[0]
+        stats["cores_of_others"] = others.cores()
         self.save(f"{name}.stats", stats)
         if scene.touches:
             self.run("bemmeasure", file, self.trajectory(name), output=self.folder / f"{name}.measure.json")
