@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Draws a trajectory.h5 as PNG frames, a contact sheet and an MP4, without a display.
+"""Draws a trajectory.h5 as PNG frames, a contact sheet, a still and an MP4, without a display.
 
     render.py OUT/trajectory.h5 -o frames --color deformation --obstacle-plane y=0
     render.py OUT/trajectory.h5 --sheet sheet.png --columns 4 --sheet-frames 8
     render.py OUT/trajectory.h5 --mp4 movie.mp4 --fps 30 --speed 0.25
+    render.py OUT/trajectory.h5 --still end.png --ghosts 5
 
 Exit codes: 0 ok, 2 usage, 3 invalid input, 6 an output cannot be written.
 """
@@ -24,7 +25,7 @@ from rendering import camera, colors, geometry, ground, obstacles, picture, scen
 
 SHARP_ANGLE_DEG = 40.0
 TITLES = {"displacement": ("displacement", "m"), "deformation": ("deformation", "m"),
-          "traction": ("traction", "Pa")}
+          "traction": ("traction", "Pa"), "area": ("area growth", "%")}
 SHEET_WIDTH = 1920
 
 
@@ -99,6 +100,9 @@ def parse_arguments(arguments):
     group = parser.add_argument_group("outputs (at least one)").add_argument
     group("-o", "--output", metavar="DIR", help="one PNG per frame, frame_000000.png by frame index")
     group("--sheet", metavar="PNG", help="contact sheet of some frames")
+    group("--still", metavar="PNG", help="one picture, of the last frame")
+    group("--ghosts", type=positive(int), default=0, metavar="N",
+          help="in the still, also N earlier positions at equal distances in time, transparent")
     group("--mp4", metavar="FILE", help="video; skipped with a warning where there is no ffmpeg")
     group("--columns", type=positive(int), default=4, metavar="N", help="of the sheet (4)")
     group("--sheet-frames", type=positive(int), default=8, metavar="N", help="frames on the sheet (8)")
@@ -121,20 +125,24 @@ def parse_arguments(arguments):
           help="draw a ground: y=0, NX,NY,NZ=OFFSET, or auto (the lowest point of the motion)")
     group("--scene", metavar="JSON", help="draw the mesh obstacles of this scene, too")
     group = parser.add_argument_group("colour and shape").add_argument
-    group("--color", choices=("displacement", "deformation", "traction", "body", "none"), default="deformation",
-          help="|x - x0|; the same without the best rigid motion; |traction|; one per body; none (deformation)")
+    group("--color", choices=("displacement", "deformation", "traction", "area", "body", "none"),
+          default="deformation", help="|x - x0|; the same without the best rigid motion; |traction|; growth of the "
+          "triangles' areas; one per body; none (deformation)")
     group("--range", type=numbers(2), metavar="LO,HI", help="of the colour scale, SI units (from the data)")
     group("--deform-scale", type=float, default=1.0, metavar="S", help="exaggerate the deformation (1)")
     group("--deform-from", choices=("fit", "start"), default="fit",
           help="exaggerate about the best rigid motion of the first frame, or about the first frame (fit)")
     group("--mesh-lines", action="store_true", help="draw the edges of the triangles")
+    group("--no-time", action="store_true", help="no time at the lower left")
     group("--no-text", action="store_true", help="no time, colour bar and legend")
     add("--jobs", type=positive(int), default=os.cpu_count() or 1, metavar="N",
         help="worker processes; the pictures are the same for any N (all cores)")
     add("-q", "--quiet", action="store_true", help="no progress on stderr")
     options = parser.parse_args(_joined(sys.argv[1:] if arguments is None else arguments))
-    if not (options.output or options.sheet or options.mp4):
-        parser.error("nothing to write: give -o DIR, --sheet PNG or --mp4 FILE")
+    if not (options.output or options.sheet or options.still or options.mp4):
+        parser.error("nothing to write: give -o DIR, --sheet PNG, --still PNG or --mp4 FILE")
+    if options.ghosts and not options.still:
+        parser.error("argument --ghosts: needs --still PNG")
     if options.range and options.range[0] >= options.range[1]:
         parser.error("argument --range: LO must be below HI")
     if not -90 <= options.view[1] <= 90:
@@ -147,13 +155,16 @@ def parse_arguments(arguments):
 
 
 def quantities(body, what):
-    """What the colour map shows, per frame and vertex [frames, N], or None for a plain colour."""
+    """What the colour map shows, per frame and vertex [frames, N] or triangle [frames, M, 1], or None for a
+    plain colour."""
     if what == "displacement":
         return np.linalg.norm(body.positions - body.rest, axis=-1)
     if what == "deformation":
         areas = geometry.vertex_areas(body.rest, body.faces)
         return np.stack([np.linalg.norm(x - geometry.rigid_fit(body.rest, x, areas), axis=1)
                          for x in body.positions])
+    if what == "area":
+        return geometry.area_changes(body.rest, body.positions, body.faces)[..., None]
     if what == "traction" and body.tractions is not None:
         return np.linalg.norm(body.tractions, axis=-1)
     return None
@@ -174,7 +185,10 @@ def color_scale(values, options, body_size):
         return None
     title, unit = TITLES[options.color]
     highest = max(v.max() for v in known)
-    if options.range:
+    if options.color == "area":
+        largest = max(np.percentile(np.abs(np.concatenate([v.ravel() for v in known])), 99.5), 1e-6)
+        low, high = options.range or (-largest, largest)
+    elif options.range:
         low, high = options.range
     else:
         low, high = 0.0, highest
@@ -183,7 +197,8 @@ def color_scale(values, options, body_size):
         if options.color != "traction" and high < 1e-9 * body_size:
             high = 1e-9 * body_size  # nothing moves: do not colour rounding errors
         high = high if high > 0 else 1.0
-    return colors.Scale(title, unit, float(low), float(high), bool(highest > high * 1.0001))
+    return colors.Scale(title, unit, float(low), float(high), bool(highest > high * 1.0001),
+                        signed=options.color == "area")
 
 
 class Renderer:
@@ -210,6 +225,8 @@ class Renderer:
         light = camera.light_direction(axes, options.up)
         self.look = scene.Look(light, camera.UP[options.up], body_size,
                                self._ground(bodies, light, body_size), options.mesh_lines)
+        if self.scale is not None:
+            self.look.color_map = self.scale.table(1024)
         self.axes = axes
         self.stages = {}  # (width, height, has colour bar) -> Stage
         self.legend = ([(b.name, s.color) for b, s in zip(bodies, self.shapes)]
@@ -240,13 +257,14 @@ class Renderer:
             self.stages[key] = scene.Stage(self.look, view, width, height)
         return self.stages[key]
 
-    def frame(self, index, size, with_bar):
-        """The annotated picture of the index-th drawn frame."""
+    def _pose(self, index):
+        return [b.positions[index] for b in self.drawn], [None if s is None else s[index] for s in self.shares]
+
+    def frame(self, index, size, with_bar, ghosts=()):
+        """The annotated picture of the index-th drawn frame, with those of `ghosts` behind it."""
         texts = not self.options.no_text
         scale = self.scale if texts and with_bar else None
-        pixels = self._stage(*size, scale).draw(
-            self.shapes, [b.positions[index] for b in self.drawn],
-            [None if s is None else s[index] for s in self.shares])
+        pixels = self._stage(*size, scale).draw(self.shapes, *self._pose(index), [self._pose(k) for k in ghosts])
         if not texts:
             return pixels
         note = ""
@@ -255,7 +273,8 @@ class Renderer:
         if self.options.deform_scale != 1:
             note = f"deformation ×{self.options.deform_scale:g}" + (", " + note if note else "")
         captions = picture.Captions(size[1])
-        return captions.annotate(pixels, time_text(self.motion.times, index), note, scale, self.legend)
+        return captions.annotate(pixels, "" if self.options.no_time else time_text(self.motion.times, index), note,
+                                 scale, self.legend)
 
 
 def time_text(times, index):
@@ -336,6 +355,15 @@ def write_sheet(renderer, options):
     picture.write_png(options.sheet, sheet)
 
 
+def write_still(renderer, options):
+    times = renderer.motion.times
+    last = len(times) - 1
+    wanted = times[0] + (times[-1] - times[0]) * np.arange(options.ghosts) / max(options.ghosts, 1)
+    ghosts = [int(np.abs(times - t).argmin()) for t in wanted]
+    pathlib.Path(options.still).parent.mkdir(parents=True, exist_ok=True)
+    picture.write_png(options.still, renderer.frame(last, options.size, True, ghosts))
+
+
 def run(options):
     def select(times):
         rate = options.fps / options.speed if options.speed else None
@@ -351,6 +379,8 @@ def run(options):
     write_frames(renderer, options)
     if options.sheet:
         write_sheet(renderer, options)
+    if options.still:
+        write_still(renderer, options)
 
 
 def main(arguments=None):

@@ -1,4 +1,4 @@
-"""Colours: sRGB encoding, the viridis map, the palette of bodies, and the scale of a quantity."""
+"""Colours: sRGB encoding, the colour maps, the palette of bodies, and the scale of a quantity."""
 import dataclasses
 
 import numpy as np
@@ -7,6 +7,8 @@ import numpy as np
 _VIRIDIS = (
     "440154470d6048186a482374472e7c4538824241863e4a893a548c365d8d32658e2e6d8e2b758e287d8e25848e228c8d"
     "1f948c1e9c8920a38625ab822eb37c3aba7648c16e58c7656ccd5a7fd34e93d741a8db34c0df25d5e21aeae51afde725")
+# From blue over a light grey to red (coolwarm; Moreland 2009) at 9 equidistant points.
+_COOLWARM = ("3b4cc0" "6788ee" "9abbff" "c9d7f0" "dddddd" "edd1c2" "f7a889" "e26952" "b40426")
 _BODIES = ("4c86c6", "ee8a3a", "55a868", "d9575c", "8d79c9", "4fb5b0", "e3bb3f", "a47a61")
 _CLAY = "c9bcae"
 _SURROUNDINGS = "b4bac2"
@@ -31,8 +33,17 @@ def from_hex(text):
 
 
 def viridis(count=256):
-    """The colour map as `count` sRGB triples."""
-    table = from_hex(_VIRIDIS)
+    """The map of quantities that start at zero, as `count` sRGB triples."""
+    return _interpolated(_VIRIDIS, count)
+
+
+def coolwarm(count=256):
+    """The map of quantities of both signs."""
+    return _interpolated(_COOLWARM, count)
+
+
+def _interpolated(text, count):
+    table = from_hex(text)
     at = np.linspace(0, len(table) - 1, count)
     return np.stack([np.interp(at, np.arange(len(table)), table[:, k]) for k in range(3)], axis=1)
 
@@ -57,12 +68,19 @@ class Scale:
     low: float
     high: float
     clipped: bool = False  # some values lie above high
+    signed: bool = False  # of both signs, with zero in the middle
+
+    def table(self, count=256):
+        """The colour map as `count` sRGB triples."""
+        return coolwarm(count) if self.signed else viridis(count)
 
     def shares(self, values):
         return np.clip((values - self.low) / (self.high - self.low), 0.0, 1.0)
 
     def display(self):
         """Factor and unit that make the numbers of the bar short."""
+        if self.unit == "%":
+            return 1.0, self.unit
         largest = max(abs(self.low), abs(self.high))
         for size, prefix in _PREFIXES:
             if largest >= size * 0.9999:

@@ -19,6 +19,12 @@ def vertex_areas(points, faces):
     return np.bincount(faces.ravel(), np.repeat(areas, 3), minlength=len(points))
 
 
+def area_changes(rest, positions, faces):
+    """How much the area of each triangle has grown [%], per frame [frames, M]."""
+    start = np.linalg.norm(face_normals(rest, faces), axis=1)
+    return np.stack([100 * (np.linalg.norm(face_normals(x, faces), axis=1) / start - 1) for x in positions])
+
+
 def smoothing_groups(points, faces, sharp_angle_deg):
     """For every triangle corner the index of the normal that it shares, and how many there are:
     corners at one vertex share a normal when edges less sharp than the angle join their triangles."""

@@ -91,7 +91,7 @@ class Captions:
         wide = round(0.95 * self.size)
         canvas.text((left, top - 1.9 * self.size), title, INK, self.small, anchor="ls")
         canvas.text((left, top - 0.7 * self.size), unit, FAINT_INK, self.small, anchor="ls")
-        strip = np.round(255 * colors.viridis(length)[::-1]).astype(np.uint8)
+        strip = np.round(255 * scale.table(length)[::-1]).astype(np.uint8)
         image.paste(Image.fromarray(np.repeat(strip[:, None], wide, axis=1)), (left, top))
         canvas.rectangle((left - 1, top - 1, left + wide, top + length), outline=(255, 255, 255))
         if scale.clipped:  # an arrow: some values lie beyond the end

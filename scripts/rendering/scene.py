@@ -9,6 +9,7 @@ from .raster import barycentric_coefficients, visible_triangles
 
 SAMPLES = 2  # per pixel and direction
 SHADOW_MAP = 800
+GHOST_OPACITY = 0.38
 SKY = colors.to_linear([0.955, 0.968, 0.985])
 HORIZON = colors.to_linear([0.800, 0.832, 0.872])
 KEY_LIGHT = np.array([1.00, 0.965, 0.91]) * 0.84
@@ -36,6 +37,7 @@ class Look:
     body_size: float  # [m]
     ground: Ground | None = None
     mesh_lines: bool = False
+    color_map: np.ndarray = dataclasses.field(default_factory=lambda: colors.viridis(1024))  # sRGB
 
 
 class _Surface:
@@ -49,9 +51,15 @@ class _Surface:
                                        for s, p in zip(shapes, points)])
         self.body = np.repeat(np.arange(len(shapes)), [len(s.faces) for s in shapes])
         self.corners = self.points[self.faces]
-        self.shares = np.concatenate([np.full(len(p), np.nan) if v is None else v
-                                      for p, v in zip(points, shares)])[self.faces]
+        self.shares = np.concatenate([_corner_shares(s.faces, v) for s, v in zip(shapes, shares)])
         self.facing = geometry.face_normals(self.points, self.faces)
+
+
+def _corner_shares(faces, shares):
+    """[M, 3], NaN where there is no value; shares: None, one per vertex [N], or one per triangle [M, 1]."""
+    if shares is None:
+        return np.full((len(faces), 3), np.nan)
+    return np.repeat(shares, 3, axis=1) if shares.ndim == 2 else shares[faces]
 
 
 class Stage:
@@ -64,15 +72,20 @@ class Stage:
         self.background = background.reshape(-1, 3)
         self.ground = GroundView(look.ground, background, camera) if look.ground else None
 
-    def draw(self, shapes, points, shares):
+    def draw(self, shapes, points, shares, ghosts=()):
         """One frame as [height, width, 3] bytes. points: per body [N, 3]; shares: per body None or
-        [N] values 0..1 that the colour map turns into colours."""
+        values 0..1, [N] or per triangle [M, 1], that the colour map turns into colours. ghosts: points
+        and shares of other frames, which are drawn behind it, transparent and without shadows."""
         surface = _Surface(shapes, points, shares)
         background = self.background
         if self.ground:
             background = self.ground.shaded(GroundShadow(self.look.ground, surface.points, surface.faces))
+        picture = background
+        for ghost in ghosts:
+            color, cover = self._bodies(shapes, _Surface(shapes, *ghost))
+            picture = picture * (1 - GHOST_OPACITY * cover)[:, None] + GHOST_OPACITY * color
         color, cover = self._bodies(shapes, surface)
-        picture = background * (1 - cover)[:, None] + color
+        picture = picture * (1 - cover)[:, None] + color
         encoded = np.round(255 * colors.to_srgb(picture)).astype(np.uint8)
         return encoded.reshape(self.height, self.width, 3)
 
@@ -130,7 +143,7 @@ def _shade(look, eye, shapes, surface, triangle, weights):
     highlight and a rim."""
     normal = geometry.normalised(np.einsum("si,sij->sj", weights, surface.normals[triangle]))
     point = np.einsum("si,sij->sj", weights, surface.corners[triangle])
-    base = _base_color(shapes, surface, triangle, weights)
+    base = _base_color(look.color_map, shapes, surface, triangle, weights)
     view = geometry.normalised(eye - point)
     facing = np.einsum("si,si->s", normal, view)
     lit = normal @ look.light
@@ -150,11 +163,11 @@ def _shade(look, eye, shapes, surface, triangle, weights):
             + (0.10 * shine + 0.07 * rim)[:, None])
 
 
-def _base_color(shapes, surface, triangle, weights):
+def _base_color(color_map, shapes, surface, triangle, weights):
     plain = colors.to_linear(np.stack([s.color for s in shapes]))[surface.body[triangle]]
     share = np.einsum("si,si->s", weights, surface.shares[triangle])
-    table = colors.to_linear(colors.viridis(1024))
-    mapped = table[np.clip(np.nan_to_num(share) * 1023 + 0.5, 0, 1023).astype(int)]
+    last = len(color_map) - 1
+    mapped = colors.to_linear(color_map)[np.clip(np.nan_to_num(share) * last + 0.5, 0, last).astype(int)]
     return np.where(np.isnan(share)[:, None], plain, mapped)
 
 

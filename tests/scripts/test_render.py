@@ -156,6 +156,32 @@ class Pictures(unittest.TestCase):
         self.assertGreater(body_share(above), 0.05)
         self.assertEqual(body_share(below), 0.0)
 
+    def test_growing_triangles_are_red_and_shrinking_ones_blue(self):
+        start = box([0, 0, 0], 1.0)
+        for factor, color in ((1.2, colors.coolwarm()[-1]), (0.8, colors.coolwarm()[0])):
+            write_trajectory(self.file, {"box": np.stack([start, factor * start])})
+            still = self.folder / "still.png"
+            self.render("--still", still, "--color", "area", "--view", "0,0", "--no-text", "--size", "120x90",
+                        "--range", "-36,36")
+            self.assertLess(hue_distance(pixels(still)[45, 60], color), 0.4)
+
+    def test_ghosts_show_where_a_body_was(self):
+        start = box([0, 0, 0], 1.0)
+        write_trajectory(self.file, {"box": np.stack([start + [x, 0, 0] for x in (0, 2, 4)])})
+        options = ("--color", "body", "--view", "0,0", "--no-text", "--size", "240x90")
+        plain, ghosts = self.folder / "plain.png", self.folder / "ghosts.png"
+        self.render("--still", plain, *options)
+        self.render("--still", ghosts, *options, "--ghosts", 2)
+        changed = np.abs(pixels(plain).astype(int) - pixels(ghosts)).sum(axis=2) > 30
+        columns = np.flatnonzero(changed.any(axis=0))
+        self.assertLess(columns.min(), 60)
+        self.assertLess(columns.max(), 170)  # the last position is as it was
+        self.assertGreater(np.diff(columns).max(), 10)  # two ghosts, apart
+        solid = np.abs(pixels(plain)[45, 200].astype(int) - pixels(plain)[45, 20]).sum()
+        ghost = np.abs(pixels(ghosts)[45, 30].astype(int) - pixels(plain)[45, 30]).sum()
+        self.assertGreater(ghost, 0.15 * solid)
+        self.assertLess(ghost, 0.6 * solid)
+
     def test_the_pictures_do_not_depend_on_the_number_of_workers(self):
         self.two_moving_boxes()
         written = []
@@ -190,6 +216,7 @@ class Pictures(unittest.TestCase):
         fails(2, *out, "--size", "12")
         fails(2, *out, "--frames", "0")
         fails(2, *out, "--obstacle-plane", "w=1")
+        fails(2, *out, "--ghosts", "3")
         self.assertIn("tractions", fails(3, *out, "--color", "traction"))
         with h5py.File(self.file, "r+") as file:
             file["bodies/left/positions"][2, 0, 0] = np.nan
@@ -238,6 +265,11 @@ class Geometry(unittest.TestCase):
         np.testing.assert_allclose(geometry.rigid_fit(points, moved, weights), moved, atol=1e-12)
         stretched = moved * [1, 1, 1.1]
         self.assertGreater(np.abs(geometry.rigid_fit(points, stretched, weights) - stretched).max(), 0.05)
+
+    def test_area_changes_are_percents_of_each_triangle(self):
+        points = box([1, 2, 3], 1.0)
+        changes = geometry.area_changes(points, np.stack([points, points * [1, 1, 2]]), BOX_FACES)
+        np.testing.assert_allclose(changes, [[0] * 12, [0] * 4 + [100] * 8], atol=1e-9)
 
     def test_normals_split_at_sharp_edges_only(self):
         points = box([0, 0, 0], 1.0)

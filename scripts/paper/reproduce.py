@@ -1,0 +1,85 @@
+"""The command line of scripts/reproduce.sh."""
+import argparse
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+from paper import figures, tables  # noqa: E402
+from paper.catalogue import FIGURES, SCENES  # noqa: E402
+from paper.workspace import ROOT, Failed, Workspace  # noqa: E402
+
+DOCUMENT, IMAGES = ROOT / "docs/paper.md", ROOT / "docs/images/paper"
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="reproduce.sh", description="Runs scenes of the paper and measures them.")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"scenes ({', '.join(SCENES)}), figures "
+                        f"({', '.join(FIGURES)}), all, or tables: measures and draws again what has been run")
+    parser.add_argument("--small", action="store_true", help="coarse meshes and few steps: all of it in minutes")
+    parser.add_argument("--threads", type=int, default=1, metavar="N", help="of bemsim (1, as in the paper)")
+    parser.add_argument("--scheme", default="bdf1", help="of the archives (bdf1, as in the paper)")
+    parser.add_argument("--update-docs", action="store_true", help="puts tables and pictures into docs")
+    options = parser.parse_args()
+    options.scenes = []
+    for name in options.names or ["all"]:
+        if name not in SCENES and name not in FIGURES and name not in ("all", "tables"):
+            parser.error(f"unknown scene '{name}' (see --help)")
+        options.scenes += [s for s, scene in SCENES.items()
+                           if name in (s, scene.figure, "all") and s not in options.scenes]
+    if options.threads < 1:
+        parser.error("--threads needs a number from 1 on")
+    if options.update_docs and (options.small or options.scheme != "bdf1"):
+        parser.error("the documents show runs in full size with bdf1")
+    return options
+
+
+def programs():
+    """The folder of the programs; builds them unless BEM_BIN names it."""
+    if os.environ.get("BEM_BIN"):
+        return pathlib.Path(os.environ["BEM_BIN"]).resolve()
+    subprocess.run(["cmake", "--preset", "release"], cwd=ROOT, check=True)
+    subprocess.run(["cmake", "--build", "--preset", "release", "--parallel", str(os.cpu_count()), "--target",
+                    "bemprecomp", "bemsim", "bemshape", "bemmeasure", "bemrecode"], cwd=ROOT, check=True)
+    return ROOT / "build/release/bin"
+
+
+def folder(options):
+    """out/paper, and beside its archives what other meshes or schemes need in a folder of its own."""
+    name = "-".join(["small"] * options.small + [options.scheme.replace(":", "")] * (options.scheme != "bdf1"))
+    return ROOT / "out/paper" / name
+
+
+def main():
+    options = arguments()
+    workspace = Workspace(folder(options), programs(), options.small, options.threads, options.scheme)
+    for name in options.scenes:
+        print(f"== {name}", file=sys.stderr)
+        workspace.prepare(name)
+        workspace.simulate(name)
+    chosen = {SCENES[name].figure for name in options.scenes}
+    for figure in FIGURES if "tables" in options.names else sorted(chosen):
+        figures.measure(workspace, figure)
+        figures.draw(workspace, figure)
+    found = tables.parts(workspace)
+    text = tables.report(found)
+    (workspace.folder / "summary.md").write_text(text)
+    print(text)
+    if options.update_docs:
+        DOCUMENT.write_text(tables.inserted(DOCUMENT.read_text(), found))
+        IMAGES.mkdir(parents=True, exist_ok=True)
+        for picture in workspace.folder.glob("fig*.png"):
+            shutil.copy(picture, IMAGES)
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except (Failed, subprocess.CalledProcessError) as failure:
+        print(f"error: a program ended with {failure}", file=sys.stderr)
+        sys.exit(1)

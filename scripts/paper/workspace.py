@@ -1,0 +1,166 @@
+"""Meshes, archives, scene files and runs of the catalogue in one folder."""
+import hashlib
+import json
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import time
+
+from .catalogue import BODIES, OBSTACLES, SCENES
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SOURCES = ROOT / "scenes/paper"
+DIVERGED = 5  # exit code of bemsim: non-finite numbers; what was computed before is there
+
+
+class Failed(Exception):
+    """A program ended with an error; its exit code."""
+
+    def __init__(self, code):
+        super().__init__(f"exit code {code}")
+        self.code = code
+
+
+class OtherLoad:
+    """How much of the machine others use while programs run here."""
+
+    def __init__(self):
+        self.start = self._now()
+
+    @staticmethod
+    def _now():
+        """Wall seconds, busy CPU seconds of the machine, and those of our children; without /proc the last two
+        are equal."""
+        own = resource.getrusage(resource.RUSAGE_CHILDREN)
+        own = own.ru_utime + own.ru_stime
+        try:
+            with open("/proc/stat", encoding="ascii") as file:
+                user, nice, system, _, _, *rest = map(int, file.readline().split()[1:])
+            busy = (user + nice + system + sum(rest[:3])) / os.sysconf("SC_CLK_TCK")
+        except (OSError, ValueError):
+            busy = own
+        return time.monotonic(), busy, own
+
+    def cores(self):
+        """Mean number of cores in use by others since the start."""
+        wall, busy, own = (b - a for a, b in zip(self.start, self._now()))
+        return max(busy - own, 0.0) / max(wall, 1e-3)
+
+
+class Workspace:
+    """`folder` receives everything; `binaries` holds the programs of the project."""
+
+    def __init__(self, folder, binaries, small=False, threads=1, scheme="bdf1"):
+        self.folder, self.binaries = pathlib.Path(folder), pathlib.Path(binaries)
+        self.small, self.threads, self.scheme = small, threads, scheme
+        self.folder.mkdir(parents=True, exist_ok=True)
+
+    def run(self, program, *arguments, output=None):
+        """Runs a program of the project (or a script by its path), its stdout into a file if one is given."""
+        command = [str(program if pathlib.Path(program).is_absolute() else self.binaries / program),
+                   *map(str, arguments)]
+        print(" ".join(command), file=sys.stderr, flush=True)
+        try:
+            with open(output or os.devnull, "w") as target:
+                code = subprocess.run(command, stdout=target).returncode
+        except OSError as error:
+            raise SystemExit(f"error: {error}") from None
+        if code != 0:
+            raise Failed(code)
+
+    def load(self, name):
+        """What is in NAME.json of the folder, or None."""
+        path = self.folder / f"{name}.json"
+        return json.loads(path.read_text()) if path.exists() else None
+
+    def save(self, name, value):
+        (self.folder / f"{name}.json").write_text(json.dumps(value, indent=1) + "\n")
+
+    def mesh(self, name):
+        """The path of the body's mesh."""
+        body = BODIES[name]
+        path = self.folder / f"{name}.obj"
+        shape, vertices = (body.small_shape, body.small_vertices) if self.small else (body.shape, body.vertices)
+        if shape == ("bunny",):
+            self.run(ROOT / "scripts/fetch_meshes.sh", self.folder / "fetched")
+            raw = self.folder / "fetched/bunny.obj"
+        else:
+            raw = path if vertices is None else self.folder / f"{name}-raw.obj"
+            self.run("bemshape", *shape, "-o", raw)
+        if vertices is not None:
+            self.run(ROOT / "scripts/refine_mesh.py", raw, path, vertices)
+        return path
+
+    def archive(self, name):
+        """Makes the body's archive unless there is one from the same inputs."""
+        body = BODIES[name]
+        path, note = self.folder / f"{name}.bem", self.folder / f"{name}.made"
+        if body.recode:
+            source, *options = body.recode
+            self.archive(source)
+            inputs = [(self.folder / f"{source}.made").read_text(), *options]
+            command = ["bemrecode", self.folder / f"{source}.bem", "-o", path, "--force", *options]
+        else:
+            mesh, material = self.mesh(name), SOURCES / f"material-{body.material}.json"
+            options = ["--scheme", self.scheme, "--dt", body.dt, *self._scale(body), *body.options]
+            inputs = [mesh.read_text(), material.read_text(), *options]
+            command = ["bemprecomp", mesh, material, "-o", path, "--force", "--stats",
+                       self.folder / f"{name}.precompute.json", *options]
+        made = hashlib.sha256("\n".join(map(str, inputs)).encode()).hexdigest()
+        if not (path.exists() and note.exists() and note.read_text() == made):
+            note.unlink(missing_ok=True)
+            self.run(*command)
+            note.write_text(made)
+        self.run("bemprecomp", "--info", path, "--json", output=self.folder / f"{name}.info.json")
+
+    def _scale(self, body):
+        return [] if self.small or body.scale == 1 else ["--mesh-scale", body.scale]
+
+    def scene_file(self, name):
+        """Writes the scene of a run, its paths relative to the folder; returns its path."""
+        scene = SCENES[name]
+        content = json.loads((SOURCES / f"{scene.file}.json").read_text())
+        changes = {**scene.changes, **(scene.small_changes if self.small else {})}
+        for pointer, value in changes.items():
+            *parents, key = pointer.strip("/").split("/")
+            target = content
+            for parent in parents:
+                target = target[int(parent) if isinstance(target, list) else parent]
+            if isinstance(value, int) and isinstance(target[key], list):
+                value = target[key][:value]  # the first few
+            target[key] = value
+        for thing in [*content["bodies"], *content.get("obstacles", [])]:
+            for key in thing.keys() & {"archive", "mesh"}:
+                thing[key] = pathlib.PurePath(thing[key]).name
+        path = self.folder / f"{name}.scene.json"
+        path.write_text(json.dumps(content, indent=1) + "\n")
+        return path
+
+    def trajectory(self, name):
+        return self.folder / name / "trajectory.h5"
+
+    def prepare(self, name):
+        scene = SCENES[name]
+        for obstacle in scene.obstacles:
+            self.run("bemshape", *OBSTACLES[obstacle][self.small], "-o", self.folder / f"{obstacle}.obj")
+        self.archive(scene.body)
+
+    def simulate(self, name, steps=None):
+        """Runs a scene whose archive is there; its statistics with what others use of the machine."""
+        scene, file = SCENES[name], self.scene_file(name)
+        count = steps or (scene.small_steps if self.small else None)
+        others = OtherLoad()
+        try:
+            self.run("bemsim", file, "-o", self.folder / name, "--force", "--threads", self.threads,
+                     "--stats", self.folder / f"{name}.stats.json", *(["--steps", count] if count else []))
+        except Failed as failure:
+            if failure.code != DIVERGED:
+                raise
+            print(f"warning: {name} ended early", file=sys.stderr)
+        stats = self.load(f"{name}.stats")
+        stats["cores_of_others"] = others.cores()
+        self.save(f"{name}.stats", stats)
+        if scene.touches:
+            self.run("bemmeasure", file, self.trajectory(name), output=self.folder / f"{name}.measure.json")
