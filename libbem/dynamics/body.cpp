@@ -360,6 +360,12 @@ void Body::end_step() {
                     "\" has non-finite positions at t = " + std::to_string(frame_.time()) + " s");
 }
 
+void Body::visit_state(StateArchive& state) {
+  state(frame_, displacement_);
+  if (elastic_) state(*elastic_);
+  for (PrescribedLoad& p : loads_) state(p.history);
+}
+
 std::vector<Vec3> Body::node_positions() const {
   const std::vector<Vec3>& x = shared_.model->geometry.nodes.vertices;
   const RigidFrame::Stages now = frame_.current();

@@ -123,6 +123,9 @@ class Body {
   /// Gravity, loads and window in the step that update() has computed.
   Impulses impulses() const;
 
+  /// Between two steps.
+  void visit_state(StateArchive& state);
+
  private:
   void check_loadable(const std::vector<int>& nodes) const;
   double stage_time(int stage) const;
