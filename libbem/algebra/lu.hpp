@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/types.hpp"
+#include "base/state_archive.hpp"
 
 #include <vector>
 
@@ -18,6 +18,9 @@ class Lu {
   /// Factorises `a` in its own memory, n^3/3 multiply-adds (n x 128 elements of workspace).
   /// Throws ErrorCode::numerical if a pivot is zero or not finite.
   explicit Lu(DenseMatrix<T>&& a);
+  Lu() = default;  ///< of nothing, to be restored
+
+  void visit_state(StateArchive& state) { state(lu_, pivots_, norm1_); }
 
   /// b := a^{-1} b in place, n^2 multiply-adds per column.
   void solve(DenseMatrix<T>& b) const;

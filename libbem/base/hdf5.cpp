@@ -52,6 +52,14 @@ Hdf5File Hdf5File::create(const std::string& path, const Hdf5CreateOptions& opti
 }
 
 Hdf5File Hdf5File::open(const std::string& path, ErrorCode error) {
+  return open(path, error, H5F_ACC_RDONLY);
+}
+
+Hdf5File Hdf5File::open_growing(const std::string& path, ErrorCode error) {
+  return open(path, error, H5F_ACC_RDONLY | H5F_ACC_SWMR_READ);
+}
+
+Hdf5File Hdf5File::open(const std::string& path, ErrorCode error, unsigned mode) {
   silence_hdf5();
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
@@ -62,7 +70,7 @@ Hdf5File Hdf5File::open(const std::string& path, ErrorCode error) {
   if (recognised == 0) throw Error(error, path + ": is not an HDF5 file");
   if (recognised < 0) fail_at_file(path, error, "cannot be opened");
   const Hdf5Handle access = file_access();
-  const Id id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get());
+  const Id id = H5Fopen(path.c_str(), mode, access.get());
   if (id < 0) fail_at_file(path, error, "cannot be opened as an HDF5 file");
   return Hdf5File(path, error, id);
 }

@@ -26,6 +26,8 @@ class Hdf5File {
   static Hdf5File create(const std::string& path, const Hdf5CreateOptions& options = {});
   /// Opens read-only. The library can crash on a damaged file: check a digest before, if any.
   static Hdf5File open(const std::string& path, ErrorCode error);
+  /// The same of a file that is written in SWMR mode, or was when its writer was killed.
+  static Hdf5File open_growing(const std::string& path, ErrorCode error);
 
   Hdf5File(Hdf5File&& other) noexcept;
   Hdf5File& operator=(Hdf5File&& other) noexcept;
@@ -125,6 +127,7 @@ class Hdf5File {
 
   Hdf5File(std::string path, ErrorCode error, Id id)
       : path_(std::move(path)), error_(error), id_(id) {}
+  static Hdf5File open(const std::string& path, ErrorCode error, unsigned mode);
   Id id() const;
   [[noreturn]] void fail(const std::string& object, const std::string& cause) const;
   [[noreturn]] void fail_in_library(const std::string& object, const std::string& action) const;

@@ -73,6 +73,10 @@ PendingFile::~PendingFile() {
   if (exists_) ::unlink(temporary_.c_str());
 }
 
+bool PendingFile::is_temporary(const std::string& name, const std::string& final_name) {
+  return writer_of(name, final_name) > 0;
+}
+
 void PendingFile::commit() {
   if (!exists_) return;
   {

@@ -18,6 +18,8 @@ class PendingFile {
   PendingFile& operator=(const PendingFile&) = delete;
 
   const std::string& temporary_path() const { return temporary_; }
+  /// Is this the name of a temporary file of any process that writes a file `final_name`?
+  static bool is_temporary(const std::string& name, const std::string& final_name);
 
   /// Waits until the data is on the disk and gives the file its final name, replacing what has that
   /// name. Throws ErrorCode::resources.

@@ -117,12 +117,12 @@ class FeaturePairs {
   std::vector<Contact> contacts_;
 };
 
-/// Does the box reach the half space?
-bool reaches(const BoundingBox& box, const CollisionPlane& plane) {
+/// Does the box come to within a distance of the half space?
+bool reaches(const BoundingBox& box, const CollisionPlane& plane, double distance) {
   double lowest = -plane.normal.dot(plane.point);
   for (int k = 0; k < 3; ++k)
     lowest += plane.normal[k] * (plane.normal[k] > 0 ? box.min[k] : box.max[k]);
-  return lowest <= 0;
+  return lowest <= distance;
 }
 
 }  // namespace
@@ -138,6 +138,9 @@ struct CollisionDetector::State {
     return std::find(ignored.begin(), ignored.end(), Pair(a, b)) == ignored.end() &&
            std::find(ignored.begin(), ignored.end(), Pair(b, a)) == ignored.end();
   }
+
+  /// Distance at which surfaces see each other [m].
+  double reach() const { return std::max(options.margin, options.recovery_depth); }
 
   std::map<Pair, PairState> pairs;  ///< of the last detection
 
@@ -168,7 +171,8 @@ std::vector<Pair> CollisionDetector::State::close_pairs() const {
         close.emplace_back(std::min(a, b), std::max(a, b));
     }
     for (std::size_t p = 0; p < planes.size(); ++p)
-      if (!prescribed[a] && reaches(surfaces[a].box(), planes[p]) &&
+      // without the slack, which remembers where the surface has been
+      if (!prescribed[a] && reaches(surfaces[a].swept_box(), planes[p], 0.5 * reach()) &&
           is_allowed(a, count + static_cast<int>(p)))
         close.emplace_back(a, count + static_cast<int>(p));
   }
@@ -240,7 +244,7 @@ bool CollisionDetector::is_allowed(int a, int b) const {
 std::vector<Contact> CollisionDetector::detect(const std::vector<SurfaceMotion>& motions) {
   State& state = *state_;
   require(motions.size() == state.surfaces.size(), "every surface has a motion");
-  const double reach = std::max(state.options.margin, state.options.recovery_depth);
+  const double reach = state.reach();
   std::vector<SweptSurface>& surfaces = state.surfaces;
   parallel_for(motions.size(), [&](std::size_t i) {
     surfaces[i].sweep(*motions[i].start, *motions[i].end, reach);

@@ -38,7 +38,8 @@ struct SurfaceMotion {
 /// Finds the contacts of a step among surfaces and with planes: pairs of features (vertex and
 /// triangle, edge and edge, vertex and plane) that touch at the start, hit each other on the way
 /// (vertices move on straight lines), or end within the margin. The method is in docs/method.md,
-/// "Collision detection". Contacts are sorted by key and bit-identical for any number of threads.
+/// "Collision detection". Contacts are sorted by key and bit-identical for any number of threads;
+/// what is remembered of earlier calls makes a call faster, but does not change its result.
 class CollisionDetector {
  public:
   /// Throws ErrorCode::internal for meshes that are not as CollisionSurface says.

@@ -73,6 +73,12 @@ class ConstraintSolver {
   /// World forces on side a of the contacts of the last call [N].
   const std::vector<Vec3>& contact_forces() const { return forces_; }
 
+  /// Between two steps: what the next one starts from.
+  void visit_state(StateArchive& state) {
+    for (Mechanism& m : mechanisms_) state(m);
+    state(known_forces_);
+  }
+
   void observe_contacts(ContactObserver observer) { observer_ = std::move(observer); }
 
  private:

@@ -136,6 +136,13 @@ void Mechanism::add_forces(const Eigen::VectorXd& change) {
           change.segment<3>(a * block + static_cast<Eigen::Index>(3 * j));
 }
 
+void Mechanism::visit_state(StateArchive& state) {
+  bool factorised = factors_ != nullptr;
+  state(active_, forces_, factorised);
+  if (state.restores()) factors_ = factorised ? std::make_unique<Lu<double>>() : nullptr;
+  if (factorised) state(*factors_);
+}
+
 void Mechanism::apply_forces() {
   for (int body : bodies_) (*all_bodies_)[body].joint_forces().setZero();
   for (std::size_t j = 0; j < joints_.size(); ++j) {

@@ -43,6 +43,8 @@ class Mechanism {
   void set_forces(const Eigen::MatrixXd& forces) { forces_ = forces; }
   /// Writes the joint forces to the bodies, for the rotations of their last update.
   void apply_forces();
+  /// Between two steps. The factorisation is part of the state: it may be of an earlier step.
+  void visit_state(StateArchive& state);
   /// Impulse of the joints that connect the bodies with the world in the step that their last
   /// update has computed [N s].
   Vec3 impulse_from_world() const;

@@ -39,6 +39,8 @@ void SweptSurface::sweep(const std::vector<Vec3>& start, const std::vector<Vec3>
   vertex_boxes_.resize(start.size());
   for (std::size_t v = 0; v < start.size(); ++v)
     vertex_boxes_[v] = {start[v].cwiseMin(end[v]) - wide, start[v].cwiseMax(end[v]) + wide};
+  swept_box_ = vertex_boxes_.empty() ? BoundingBox() : vertex_boxes_.front();
+  for (const BoundingBox& b : vertex_boxes_) extend(swept_box_, b);
   if (is_within_slack()) return;
   ++boxes_version_;
   wide_boxes_ = vertex_boxes_;

@@ -21,7 +21,8 @@ class SweptSurface {
 
   const SurfaceTopology& topology() const { return topology_; }
   const BoundingTree& tree() const { return *tree_; }
-  /// Box of the whole surface, with slack.
+  /// Box of what the whole surface sweeps, and the same with slack.
+  const BoundingBox& swept_box() const { return swept_box_; }
   const BoundingBox& box() const { return box_; }
   /// Changes whenever the boxes of the tree do.
   long boxes_version() const { return boxes_version_; }
@@ -42,7 +43,7 @@ class SweptSurface {
   SurfaceTopology topology_;
   std::vector<Vec3> start_, end_;
   std::vector<BoundingBox> vertex_boxes_, wide_boxes_;
-  BoundingBox box_;
+  BoundingBox swept_box_, box_;
   std::optional<BoundingTree> tree_;
   SurfaceNormals normals_;
   std::vector<char> ridges_;

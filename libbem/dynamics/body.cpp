@@ -266,19 +266,6 @@ double Body::update() {
   return turn;
 }
 
-Impulses Body::impulses() const {
-  Impulses out;
-  if (!has_inertia()) return out;
-  out.gravity = frame_.mass() * dt_ * frame_.gravity();
-  std::vector<Vec3> loads(stage_count_, Vec3::Zero());
-  for (int a = 0; a < stage_count_; ++a)
-    for (const PrescribedLoad& p : loads_)
-      loads[a] += force_rotation_[a] * (p.load.force() * p.stages.col(a));
-  out.loads = frame_.impulse_of(loads);
-  if (!frame_stages_.drag.empty()) out.window = frame_.impulse_of(frame_stages_.drag);
-  return out;
-}
-
 Vec3 Body::joint_position(std::size_t i, int stage) const {
   return frame_.place(frame_stages_, stage,
                       shared_.model->geometry.nodes.vertices[joint_nodes_[i].node],
@@ -393,64 +380,10 @@ void Body::end_step() {
   check_state();
 }
 
-/// Stops motions that have no meaning any more.
-void Body::check_state() const {
-  constexpr double kMostDeformation = 100;  // of the body's size
-  const std::string when = " at t = " + std::to_string(frame_.time()) + " s";
-  if (!displacement_.allFinite() || !frame_.translation().allFinite() ||
-      !frame_.rotation().allFinite())
-    throw Error(ErrorCode::numerical,
-                "body \"" + spec_.name + "\" has non-finite positions" + when);
-  const double most = displacement_.cwiseAbs().maxCoeff() / model().geometry.extent;
-  if (most > kMostDeformation)
-    throw Error(
-        ErrorCode::numerical,
-        "body \"" + spec_.name + "\" is deformed to " + std::to_string(static_cast<long>(most)) +
-            " times its size" + when +
-            ": if its loads do not do that, its motion is unstable; make its archive with "
-            "--window auto (or a smaller window), a larger --dt, a smaller --codec-tol or a "
-            "finer mesh");
-}
-
-std::vector<Vec3> Body::node_positions() const {
-  const std::vector<Vec3>& x = shared_.model->geometry.nodes.vertices;
-  const RigidFrame::Stages now = frame_.current();
-  std::vector<Vec3> out;
-  out.reserve(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-    out.push_back(
-        frame_.place(now, 0, x[i], displacement_.segment<3>(static_cast<Eigen::Index>(3 * i))));
-  return out;
-}
-
-std::vector<Vec3> Body::positions() const {
-  const BodyGeometry& g = shared_.model->geometry;
-  const RigidFrame::Stages now = frame_.current();
-  const std::vector<Vec3> nodes = node_positions();
-  std::vector<Vec3> out;
-  out.reserve(g.input.vertices.size());
-  for (std::size_t v = 0; v < g.input.vertices.size(); ++v) {
-    const int node = g.node_of_vertex[v];
-    if (node < 0)  // no triangle uses it: it goes with the frame
-      out.push_back(frame_.place(now, 0, g.input.vertices[v] - g.mass.centre, Vec3::Zero()));
-    else
-      out.push_back(nodes[node]);
-  }
-  return out;
-}
-
-std::vector<Vec3> Body::tractions() const {
-  const BodyGeometry& g = shared_.model->geometry;
-  Eigen::Matrix3Xd nodal =
-      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(g.nodes.vertices.size()));
-  for (const PrescribedLoad& p : loads_)
-    p.load.add_nodal_tractions(p.stages.col(p.stages.cols() - 1), nodal);
-  if (elastic_ && !frame_stages_.rotation.empty())
-    elastic_->add_nodal_tractions(nodal_forces(), nodal);
-  std::vector<Vec3> out;
-  for (int node : g.node_of_vertex)
-    out.push_back(node < 0 ? Vec3(Vec3::Zero()) : Vec3(frame_.rotation() * nodal.col(node)));
-  return out;
+void Body::visit_state(StateArchive& state) {
+  state(frame_, displacement_);
+  if (elastic_) state(*elastic_);
+  for (PrescribedLoad& p : loads_) state(p.history);
 }
 
 }  // namespace bem

@@ -122,6 +122,9 @@ class Body {
   /// Gravity, loads and window in the step that update() has computed.
   Impulses impulses() const;
 
+  /// Between two steps.
+  void visit_state(StateArchive& state);
+
  private:
   bool is_quasistatic() const { return model().kind == ModelKind::quasistatic; }
   void check_state() const;

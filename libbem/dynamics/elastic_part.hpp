@@ -82,6 +82,12 @@ class ElasticPart {
   /// Nodal tractions of forces at the end of the step are added [Pa, body axes].
   void add_nodal_tractions(const NodalForces& forces, Eigen::Matrix3Xd& tractions) const;
 
+  /// Between two steps; compliances come again by themselves.
+  void visit_state(StateArchive& state) {
+    state(offset_, displacement_history_, acceleration_history_, corner_history_,
+          traction_history_, solution_memory_);
+  }
+
  private:
   Corrected correct() const;
   NodalLoad nodal_load(const NodalForces& forces) const;

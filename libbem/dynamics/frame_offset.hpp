@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/state_archive.hpp"
 #include "kernels/scheme.hpp"
 
 namespace bem {
@@ -27,10 +28,13 @@ class FrameOffset {
   /// d(offset stages)/d(e stages), the same for all six components: s x s [s^2].
   const StageMatrix& gain() const { return gain_; }
   void advance(const Eigen::MatrixXd& e);
+  /// All but the leak.
+  void visit_state(StateArchive& state) { state(state_, previous_); }
 
  private:
   struct State {
     Vector6 offset = Vector6::Zero(), rate = Vector6::Zero();
+    void visit_state(StateArchive& state) { state(offset, rate); }
   };
   State base() const;
   Eigen::MatrixXd rates(const State& start, const Eigen::MatrixXd& e) const;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/types.hpp"
+#include "base/state_archive.hpp"
 
 namespace bem {
 
@@ -21,6 +21,7 @@ struct Impulses {
     obstacles += other.obstacles;
     return *this;
   }
+  void visit_state(StateArchive& state) { state(gravity, loads, window, joints, obstacles); }
   Vec3 total() const { return gravity + loads + window + joints + obstacles; }
   double sum_of_norms() const {
     return gravity.norm() + loads.norm() + window.norm() + joints.norm() + obstacles.norm();
@@ -35,6 +36,9 @@ struct MomentumBalance {
   Impulses impulses;
   double scale = 0;  ///< |start| plus the magnitudes of the impulses of all steps [N s]
 
+  void visit_state(StateArchive& state) {
+    state(start, end, angular_start, angular_end, impulses, scale);
+  }
   double defect() const { return (end - start - impulses.total()).norm(); }
   double relative_defect() const { return scale > 0 ? defect() / scale : 0; }
 };

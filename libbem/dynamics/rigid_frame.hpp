@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/state_archive.hpp"
 #include "kernels/scheme.hpp"
 #include "mesh/mass_properties.hpp"
 
@@ -61,6 +62,7 @@ class RigidFrame {
   Stages stages(const FrameLoads& loads, const FrameDrag& drag = {}) const;
   /// Takes the last stage as the new state.
   void advance(const Stages& stages);
+  void visit_state(StateArchive& state) { state(state_, previous_, step_); }
 
   /// World position of the point x (relative to the centre of mass) with displacement u.
   Vec3 place(const Stages& s, int stage, const Vec3& x, const Vec3& u) const {
@@ -104,6 +106,9 @@ class RigidFrame {
   struct State {
     Vec3 position, velocity, angular_momentum, turn;
     Mat3 rotation;
+    void visit_state(StateArchive& state) {
+      state(position, velocity, angular_momentum, turn, rotation);
+    }
   };
   template <class T>
   T base(const T& now, const T& before) const;

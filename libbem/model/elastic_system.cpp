@@ -31,6 +31,13 @@ void LagHistory::push(const Eigen::MatrixXd& stages) {
   if (family_) family_->analyse_columns(ring_[newest_], coefficients_[newest_]);
 }
 
+void LagHistory::visit_state(StateArchive& state) {
+  state(ring_, zero_, newest_);
+  if (!state.restores() || !family_) return;
+  for (std::size_t i = 0; i < ring_.size(); ++i)
+    if (!zero_[i]) family_->analyse_columns(ring_[i], coefficients_[i]);
+}
+
 ElasticSystem::ElasticSystem(const BodyModel& model, double window)
     : model_(model), window_(window), scheme_(model.discretisation.scheme.windowed(window)) {
   const int initial = static_cast<int>(scheme().initial_components().size());

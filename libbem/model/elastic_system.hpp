@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/state_archive.hpp"
 #include "model/initial_solver.hpp"
 #include "model/rigid_projection.hpp"
 
@@ -22,6 +23,7 @@ class LagHistory {
 
   /// Makes `stages` (inputs x s) the values of lag 1; older ones move on by one lag.
   void push(const Eigen::MatrixXd& stages);
+  void visit_state(StateArchive& state);
 
   /// Component inputs of a lag (inputs x components), 1 <= lag <= history_length.
   const Eigen::MatrixXd& lag(int k) const { return ring_[slot(k)]; }
@@ -69,10 +71,12 @@ class SolutionMemory {
   /// The combination of known solutions whose right-hand side is nearest to b.
   Eigen::VectorXcd guess(int component, const Eigen::VectorXcd& b) const;
   void add(int component, Eigen::VectorXcd u, Eigen::VectorXcd b);
+  void visit_state(StateArchive& state) { state(pairs_); }
 
  private:
   struct Pair {
     Eigen::VectorXcd u, b;  ///< the b of a component are orthonormal
+    void visit_state(StateArchive& state) { state(u, b); }
   };
   std::vector<std::deque<Pair>> pairs_;  ///< [component], oldest first
 };

@@ -30,12 +30,14 @@ class NodalHistory {
 
   /// Makes `load` that of lag 1; older ones move on by one lag.
   void push(const NodalLoad& load);
+  void visit_state(StateArchive& state) { state(ring_, newest_); }
   /// The window's weight on a lag.
   double factor(int k) const { return std::pow(window_, k); }
 
   struct Lag {
     std::vector<int> columns;  ///< 3 node + axis
     Eigen::MatrixXd inputs;    ///< columns.size() x components
+    void visit_state(StateArchive& state) { state(columns, inputs); }
   };
   const Lag& lag(int k) const { return ring_[(newest_ + k - 1) % ring_.size()]; }
   int length() const { return static_cast<int>(ring_.size()); }

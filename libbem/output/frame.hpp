@@ -33,7 +33,9 @@ struct Frame {
   std::vector<BodyFrame> bodies;  ///< in the order of the TrajectoryBody list
 };
 
-/// Writes the frames of a run in one format.
+/// Writes the frames of a run in one format. One that is made with a number `kept` > 0 goes on with
+/// the output of an earlier run of the same bodies: its first `kept` frames stay, what comes after
+/// them goes. In the end every byte is as if the run had never stopped.
 class FrameWriter {
  public:
   virtual ~FrameWriter() = default;

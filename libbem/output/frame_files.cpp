@@ -3,9 +3,12 @@
 #include "base/error.hpp"
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <vector>
 
 namespace bem {
 namespace {
@@ -18,6 +21,17 @@ bool remove_suffix(std::string_view& text, std::string_view suffix) {
     return false;
   text.remove_suffix(suffix.size());
   return true;
+}
+
+/// Of a frame's file; a temporary one belongs to no frame before any other.
+std::size_t frame_number(std::string_view file_name, std::string_view extension) {
+  constexpr std::size_t kLast = std::numeric_limits<std::size_t>::max();
+  if (!remove_suffix(file_name, extension)) return kLast;
+  file_name.remove_prefix(file_name.find_last_of('_') + 1);
+  std::size_t number = 0;
+  const auto result =
+      std::from_chars(file_name.data(), file_name.data() + file_name.size(), number);
+  return result.ec == std::errc() ? number : kLast;
 }
 
 }  // namespace
@@ -35,6 +49,24 @@ bool is_frame_file_name(std::string_view file_name, std::string_view extension) 
   const std::size_t underscore = file_name.find_last_not_of("0123456789");
   return underscore != std::string_view::npos && underscore > 0 && file_name[underscore] == '_' &&
          file_name.size() - underscore - 1 >= kDigits;
+}
+
+void remove_frames(const std::string& folder, std::string_view extension, std::size_t first) {
+  std::error_code ended;
+  std::vector<std::filesystem::path> removed;
+  for (std::filesystem::directory_iterator it(folder, ended), end; !ended && it != end;
+       it.increment(ended)) {
+    const std::string name = it->path().filename().string();
+    if (is_frame_file_name(name, extension) && frame_number(name, extension) >= first)
+      removed.push_back(it->path());
+  }
+  for (const auto& path : removed) {
+    std::error_code code;
+    std::filesystem::remove(path, code);
+    if (code)
+      throw Error(ErrorCode::resources,
+                  path.string() + ": cannot be removed (" + code.message() + ")");
+  }
 }
 
 std::string temporary_name(const std::string& path) {

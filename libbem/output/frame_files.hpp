@@ -14,6 +14,9 @@ std::string frame_file_name(const std::string& body, std::size_t frame, std::str
 /// Is this the name of such a file, of whatever body, or of the temporary file that becomes one?
 bool is_frame_file_name(std::string_view file_name, std::string_view extension);
 
+/// Removes these files from frame `first` on, and temporary ones. Throws ErrorCode::resources.
+void remove_frames(const std::string& folder, std::string_view extension, std::size_t first);
+
 /// The name under which a file is written until it is complete.
 std::string temporary_name(const std::string& path);
 

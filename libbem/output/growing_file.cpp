@@ -29,6 +29,11 @@ void GrowingFile::write(std::uint64_t position, std::string_view bytes) {
   }
 }
 
+void GrowingFile::truncate(std::uint64_t size) {
+  if (::ftruncate(file_.get(), static_cast<off_t>(size)) != 0)
+    throw Error(ErrorCode::resources, path_ + ": cannot be cut (" + std::strerror(errno) + ")");
+}
+
 void GrowingFile::close() {
   reserve_.release();
   file_ = FileDescriptor();

@@ -20,6 +20,9 @@ class GrowingFile {
   /// ErrorCode::resources.
   void write(std::uint64_t position, std::string_view bytes);
 
+  /// Cuts the file. Throws ErrorCode::resources.
+  void truncate(std::uint64_t size);
+
   /// Nothing but destruction may follow.
   void close();
 

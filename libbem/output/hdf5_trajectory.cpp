@@ -1,6 +1,9 @@
 #include "output/hdf5_trajectory.hpp"
 
+#include "base/error.hpp"
+
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 namespace bem {
@@ -37,13 +40,46 @@ Hdf5Dims chunk(const Hdf5Dims& extents) {
   return result;
 }
 
+/// Puts the trajectory of an earlier run aside. One that is aside already was left there by a run
+/// that ended before it had copied everything: it has all frames.
+std::optional<Hdf5File> set_aside(const std::string& directory,
+                                  const std::vector<TrajectoryBody>& bodies, std::size_t kept) {
+  if (kept == 0) return std::nullopt;
+  const std::string present = directory + "/" + kTrajectoryFile;
+  const std::string aside = directory + "/" + kEarlierTrajectory;
+  std::error_code code;
+  const bool is_aside = std::filesystem::exists(aside, code);
+  std::optional<Hdf5File> file =
+      Hdf5File::open_growing(is_aside ? aside : present, ErrorCode::resources);
+  bool fits = file->dims("/time")[0] >= kept && file->children("/bodies").size() == bodies.size();
+  for (const TrajectoryBody& body : bodies)
+    fits = fits && file->dims(group(body) + "/positions")[1] == body.vertices &&
+           file->exists(group(body) + "/tractions") == body.tractions;
+  if (!fits)
+    throw Error(ErrorCode::resources, file->path() + ": does not hold the frames to go on from");
+  if (!is_aside) std::filesystem::rename(present, aside, code);
+  if (code)
+    throw Error(ErrorCode::resources, aside + ": cannot be written (" + code.message() + ")");
+  return file;
+}
+
 }  // namespace
 
-Hdf5Trajectory::Hdf5Trajectory(const std::string& directory, std::vector<TrajectoryBody> bodies)
+Hdf5Trajectory::Hdf5Trajectory(const std::string& directory, std::vector<TrajectoryBody> bodies,
+                               std::size_t kept)
     : bodies_((check_bodies(bodies), std::move(bodies))),
+      earlier_(set_aside(directory, bodies_, kept)),
       file_(create_file(directory)),
       reserve_(file_.path()),
       frame_bytes_(kBookkeeping) {
+  create_contents();
+  if (!earlier_) return;
+  copy_frames(*earlier_, kept);
+  earlier_.reset();
+  std::filesystem::remove(directory + "/" + kEarlierTrajectory);
+}
+
+void Hdf5Trajectory::create_contents() {
   file_.set_attribute("/", "format", "bem trajectory");
   file_.set_attribute("/", "version", 1);
   create_series("/time", {}, "s");
@@ -77,6 +113,31 @@ void Hdf5Trajectory::create_series(const std::string& path, const Hdf5Dims& exte
 void Hdf5Trajectory::append(const std::string& path, const double* values) {
   file_.extend_rows(path, frames_ + 1);
   file_.write_rows(path, frames_, 1, values);
+}
+
+/// Frame by frame, as they were written: the bytes come out the same.
+void Hdf5Trajectory::copy_frames(const Hdf5File& earlier, std::size_t count) {
+  Frame frame;
+  frame.bodies.resize(bodies_.size());
+  for (; frame.index < count; ++frame.index) {
+    earlier.read_rows("/time", frame.index, 1, &frame.time);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      BodyFrame& body = frame.bodies[i];
+      const std::string path = group(bodies_[i]);
+      const auto read = [&](const std::string& name, double* values) {
+        earlier.read_rows(path + name, frame.index, 1, values);
+      };
+      body.positions.resize(bodies_[i].vertices);
+      read("/positions", body.positions.data()->data());
+      read("/frame/translation", body.translation.data());
+      read("/frame/rotation", body.rotation.data());
+      body.rotation.transposeInPlace();  // rows are read as columns
+      if (!bodies_[i].tractions) continue;
+      body.tractions.resize(bodies_[i].vertices);
+      read("/tractions", body.tractions.data()->data());
+    }
+    write(frame);
+  }
 }
 
 void Hdf5Trajectory::write(const Frame& frame) {

@@ -4,6 +4,7 @@
 #include "base/hdf5.hpp"
 #include "output/frame.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace bem {
 
 /// Name of the trajectory in the output directory.
 inline constexpr const char* kTrajectoryFile = "trajectory.h5";
+
+/// Name of the one that a run goes on from, while its frames are copied.
+inline constexpr const char* kEarlierTrajectory = "trajectory.h5.earlier";
 
 /// Writes OUT_DIR/trajectory.h5:
 ///
@@ -31,7 +35,9 @@ class Hdf5Trajectory : public FrameWriter {
  public:
   /// Creates the file in an existing directory, overwriting an old one. Throws
   /// ErrorCode::resources.
-  Hdf5Trajectory(const std::string& directory, std::vector<TrajectoryBody> bodies);
+  /// Frames that are kept are copied, O(their size).
+  Hdf5Trajectory(const std::string& directory, std::vector<TrajectoryBody> bodies,
+                 std::size_t kept = 0);
 
   /// O(vertices); besides its own bytes a frame of a small body rewrites at most 4 KiB.
   void write(const Frame& frame) override;
@@ -40,8 +46,11 @@ class Hdf5Trajectory : public FrameWriter {
  private:
   void create_series(const std::string& path, const Hdf5Dims& extents, const char* units);
   void append(const std::string& path, const double* values);
+  void create_contents();
+  void copy_frames(const Hdf5File& earlier, std::size_t count);
 
   std::vector<TrajectoryBody> bodies_;
+  std::optional<Hdf5File> earlier_;  ///< while its frames are copied
   Hdf5File file_;
   DiskReserve reserve_;
   std::size_t frame_bytes_ = 0;  ///< that a frame adds to the file at most

@@ -5,10 +5,12 @@
 
 namespace bem {
 
-ObjSequence::ObjSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies)
+ObjSequence::ObjSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+                         std::size_t kept)
     : folder_(directory + "/" + kObjFolder), bodies_(bodies) {
   check_bodies(bodies_);
   create_folder(folder_);
+  if (kept > 0) remove_frames(folder_, kObjExtension, kept);
   for (const TrajectoryBody& body : bodies_) meshes_.push_back({{}, body.triangles});
 }
 

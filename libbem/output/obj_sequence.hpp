@@ -20,7 +20,8 @@ inline constexpr const char* kObjExtension = ".obj";
 class ObjSequence : public FrameWriter {
  public:
   /// Creates the folder in an existing directory. Throws ErrorCode::resources.
-  ObjSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies);
+  ObjSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+              std::size_t kept = 0);
 
   /// Any order of frames is possible; an existing file is overwritten.
   void write(const Frame& frame) override;

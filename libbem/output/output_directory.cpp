@@ -1,6 +1,7 @@
 #include "output/output_directory.hpp"
 
 #include "base/error.hpp"
+#include "base/pending_file.hpp"
 #include "output/frame_files.hpp"
 #include "output/hdf5_trajectory.hpp"
 #include "output/obj_sequence.hpp"
@@ -39,7 +40,12 @@ struct FormatFiles {
 };
 
 constexpr FormatFiles kFormats[] = {
-    {"", [](const fs::path& path) { return path.filename() == kTrajectoryFile; }},
+    {"",
+     [](const fs::path& path) {
+       const std::string name = path.filename().string();
+       return name == kTrajectoryFile || name == kEarlierTrajectory || name == kCheckpointFile ||
+              PendingFile::is_temporary(name, kCheckpointFile);
+     }},
     {kObjFolder,
      [](const fs::path& path) {
        return is_frame_file_name(path.filename().string(), kObjExtension);

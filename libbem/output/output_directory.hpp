@@ -5,6 +5,9 @@
 
 namespace bem {
 
+/// Name of a run's saved state in the output directory.
+inline constexpr const char* kCheckpointFile = "checkpoint.bin";
+
 /// What to do with the output of an earlier run.
 enum class ExistingOutput {
   refuse,   ///< an error
@@ -12,8 +15,8 @@ enum class ExistingOutput {
   keep      ///< leave it to a run that goes on where the earlier one ended
 };
 
-/// Files in the directory that a run of any output format has written, sorted. Files that only lie
-/// beside them are not among these, and neither are folders.
+/// Files in the directory that a run of any output format has written, its checkpoint among them,
+/// sorted. Files that only lie beside them are not among these, and neither are folders.
 std::vector<std::string> find_output(const std::string& directory);
 
 /// Creates the directory (and those above it) and deals with what an earlier run has left there.

@@ -5,6 +5,8 @@
 #include "output/frame_files.hpp"
 
 #include <cstdint>
+#include <cstring>
+#include <fstream>
 #include <limits>
 
 namespace bem {
@@ -31,16 +33,39 @@ std::string sample(const std::vector<Vec3>& positions) {
   return bytes;
 }
 
+/// Cuts an earlier cache.
+GrowingFile open_cache(const std::string& path, std::size_t vertices, std::size_t kept) {
+  std::ifstream file(path, std::ios::binary);
+  std::string found(kHeaderSize, '\0');
+  file.read(found.data(), static_cast<std::streamsize>(found.size()));
+  std::int32_t samples = 0;
+  std::memcpy(&samples, found.data() + kSamplesAt, sizeof samples);
+  if (!file || found.compare(0, kSamplesAt, header(vertices), 0, kSamplesAt) != 0 ||
+      samples < static_cast<std::int32_t>(kept))
+    throw Error(ErrorCode::resources, path + ": does not hold the frames to go on from");
+  GrowingFile cache(path);
+  cache.write(kSamplesAt, bytes_of(static_cast<std::int32_t>(kept)));
+  cache.truncate(kHeaderSize + kept * vertices * 3 * sizeof(float));
+  return cache;
+}
+
+GrowingFile create_cache(const std::string& path, std::size_t vertices) {
+  publish(path, header(vertices));
+  return GrowingFile(path);
+}
+
 }  // namespace
 
-PointCache::PointCache(const std::string& directory, const std::vector<TrajectoryBody>& bodies)
+PointCache::PointCache(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+                       std::size_t kept)
     : bodies_((check_bodies(bodies), check_rest(bodies), bodies)),
-      folder_(directory + "/" + kPointCacheFolder) {
+      folder_(directory + "/" + kPointCacheFolder),
+      frames_(kept) {
   create_folder(folder_);
   for (const TrajectoryBody& body : bodies_) {
     const std::string path = folder_ + "/" + body.name + kPointCacheExtension;
-    publish(path, header(body.vertices));
-    files_.emplace_back(path);
+    files_.push_back(kept > 0 ? open_cache(path, body.vertices, kept)
+                              : create_cache(path, body.vertices));
   }
 }
 

@@ -27,7 +27,8 @@ class PointCache : public FrameWriter {
  public:
   /// Creates the folder in an existing directory, and caches without samples. The bodies bring
   /// their rest shapes. Throws ErrorCode::resources.
-  PointCache(const std::string& directory, const std::vector<TrajectoryBody>& bodies);
+  PointCache(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+             std::size_t kept = 0);
 
   void write(const Frame& frame) override;
   void close() override;
@@ -38,7 +39,7 @@ class PointCache : public FrameWriter {
   std::vector<TrajectoryBody> bodies_;
   std::string folder_;
   std::vector<GrowingFile> files_;  ///< by body
-  std::size_t frames_ = 0;          ///< written so far
+  std::size_t frames_;              ///< written so far
 };
 
 }  // namespace bem

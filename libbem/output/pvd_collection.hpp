@@ -14,8 +14,9 @@ namespace bem {
 /// entries and the closing tags, so that a frame costs the same however many there are.
 class PvdCollection {
  public:
-  /// Creates the file without entries, replacing an existing one. Throws ErrorCode::resources.
-  explicit PvdCollection(const std::string& path);
+  /// Creates the file without entries, replacing an existing one, of which `kept` entries stay.
+  /// Throws ErrorCode::resources, also if there are not as many.
+  explicit PvdCollection(const std::string& path, std::size_t kept = 0);
 
   struct Entry {
     std::string file;  ///< relative to the folder of the collection
@@ -26,8 +27,10 @@ class PvdCollection {
   void close() { file_.close(); }
 
  private:
-  GrowingFile file_;
+  PvdCollection(const std::string& path, const std::string& start);
+
   std::uint64_t end_;  ///< of the entries
+  GrowingFile file_;
 };
 
 /// Text with the characters replaced that mean something in XML.

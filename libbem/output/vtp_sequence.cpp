@@ -57,10 +57,14 @@ std::vector<std::int32_t> triangle_ends(std::size_t triangles) {
 
 }  // namespace
 
-VtpSequence::VtpSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies)
+VtpSequence::VtpSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+                         std::size_t kept)
     : bodies_((check_bodies(bodies), check_rest(bodies), bodies)),
       folder_(folder_of(directory)),
-      list_(folder_ + "/" + kPvdFile) {}
+      list_(folder_ + "/" + kPvdFile, kept * bodies.size()),
+      frames_(kept) {
+  if (kept > 0) remove_frames(folder_, kVtpExtension, kept);
+}
 
 std::string VtpSequence::file_contents(std::size_t body, const BodyFrame& state,
                                        double time) const {

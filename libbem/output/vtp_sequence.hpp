@@ -26,7 +26,8 @@ class VtpSequence : public FrameWriter {
  public:
   /// Creates the folder in an existing directory, and an empty list. The bodies bring their rest
   /// shapes. Throws ErrorCode::resources.
-  VtpSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies);
+  VtpSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+              std::size_t kept = 0);
 
   void write(const Frame& frame) override;
   void close() override { list_.close(); }
@@ -37,7 +38,7 @@ class VtpSequence : public FrameWriter {
   std::vector<TrajectoryBody> bodies_;
   std::string folder_;
   PvdCollection list_;
-  std::size_t frames_ = 0;  ///< written so far
+  std::size_t frames_;  ///< written so far
 };
 
 }  // namespace bem

@@ -341,6 +341,13 @@ void Simulation::end_step() {
   momentum_.angular_end = total_angular_momentum();
 }
 
+/// Contacts are found anew in every step.
+void Simulation::visit_state(StateArchive& state) {
+  state(steps_, statistics_, momentum_, times_);
+  for (Body& body : bodies_) state(body);
+  state(*constraints_);
+}
+
 void Simulation::step() {
   const double start = now();
   constraints_->begin_step(time(), scene_.time_step);

@@ -36,6 +36,9 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   void step();
+  /// Saves the state between two steps, or restores it into a simulation of the same scene and
+  /// archives (its duration may be another): it goes on as if it had never stopped, in every bit.
+  void visit_state(StateArchive& state);
   double time() const { return static_cast<double>(steps_) * scene_.time_step; }
   long steps() const { return steps_; }
   const std::vector<Body>& bodies() const { return bodies_; }

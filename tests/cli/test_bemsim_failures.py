@@ -192,8 +192,8 @@ class Failures(SimulationCase):
                 (scene + ["--steps", "1", "--duration", "1"], "--duration"), (scene + ["--every", "0"], "--every"),
                 (scene + ["--fps", "0"], "--fps"), (scene + ["--fps", "1", "--every", "1"], "--fps"),
                 (scene + ["--threads", "0"], "--threads"), (scene + ["-q", "-v"], "--verbose"),
-                (scene + ["--checkpoint-every", "5"], "not supported yet"),
-                (scene + ["--resume"], "not supported yet")]:
+                (scene + ["--checkpoint-every", "0"], "--checkpoint-every"),
+                (scene + ["--resume", "--force"], "--force")]:
             with self.subTest(arguments):
                 self.assert_error(program("bemsim", *arguments, expect=2), part)
 

@@ -25,7 +25,7 @@ const std::vector<std::string> kFormatNames = {"obj", "hdf5", "vtp", "pc2"};  //
 struct Typed {
   Options options;
   std::vector<std::string> formats;
-  bool check = false, print_schema = false, resume = false;
+  bool check = false, print_schema = false;
   std::optional<int> checkpoint_every;
 };
 
@@ -53,9 +53,11 @@ void add_options(CLI::App& app, Typed& t) {
       ->type_name("S");
   app.add_option("--threads", o.threads, "worker threads (all cores)")->type_name("N");
   app.add_option("--checkpoint-every", t.checkpoint_every,
-                 "save the state every N steps: not supported yet")
+                 "save the state every N steps, at the end and when interrupted, in "
+                 "OUT_DIR/checkpoint.bin")
       ->type_name("N");
-  app.add_flag("--resume", t.resume, "go on with an earlier run: not supported yet");
+  app.add_flag("--resume", o.resume,
+               "go on from the checkpoint in OUT_DIR, to the same bytes as without a stop");
   app.add_option("--stats", o.stats, "JSON file for time by phase, iterations, momentum, memory")
       ->type_name("FILE");
   app.add_flag("-q,--quiet", o.quiet, "only warnings and errors");
@@ -101,14 +103,16 @@ void check_numbers(const Options& o) {
 
 Options checked(Typed& t) {
   Options& o = t.options;
-  if (t.checkpoint_every) refuse("--checkpoint-every is not supported yet; leave it away");
-  if (t.resume) refuse("--resume is not supported yet; leave it away");
+  if (o.resume && o.force) refuse("use either --resume or --force");
   if (t.check && t.print_schema) refuse("use either --check or --print-schema");
   if (o.steps && o.duration) refuse("use either --steps or --duration");
   if (o.every && o.fps) refuse("use either --every or --fps");
   if (o.quiet && o.verbose) refuse("use either --quiet or --verbose");
   o.formats = parse_formats(t.formats);
   check_numbers(o);
+  if (t.checkpoint_every && *t.checkpoint_every < 1)
+    refuse("--checkpoint-every must be at least 1, not " + std::to_string(*t.checkpoint_every));
+  o.checkpoint_every = t.checkpoint_every.value_or(0);
   if (t.print_schema) {
     o.action = Options::Action::print_schema;
     return o;

@@ -20,6 +20,8 @@ struct Options {
   std::optional<int> every;        ///< steps from frame to frame
   std::optional<double> fps;       ///< frames per second of simulated time
   std::optional<int> threads;
+  int checkpoint_every = 0;  ///< steps; 0: no checkpoints
+  bool resume = false;
   bool force = false, quiet = false, verbose = false;
   std::string stats, log_file;
 };

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/pending_file.hpp"
+#include "checkpoint.hpp"
 #include "mesh/describe.hpp"
 #include "output/hdf5_trajectory.hpp"
 #include "output/obj_sequence.hpp"
@@ -26,21 +27,23 @@ bool writes_tractions(const Scene& scene) {
 }
 
 std::unique_ptr<FrameWriter> make_writer(OutputFormat format, const std::string& directory,
-                                         const std::vector<TrajectoryBody>& bodies) {
+                                         const std::vector<TrajectoryBody>& bodies,
+                                         std::size_t kept) {
   switch (format) {
     case OutputFormat::hdf5:
-      return std::make_unique<Hdf5Trajectory>(directory, bodies);
+      return std::make_unique<Hdf5Trajectory>(directory, bodies, kept);
     case OutputFormat::obj:
-      return std::make_unique<ObjSequence>(directory, bodies);
+      return std::make_unique<ObjSequence>(directory, bodies, kept);
     case OutputFormat::vtp:
-      return std::make_unique<VtpSequence>(directory, bodies);
+      return std::make_unique<VtpSequence>(directory, bodies, kept);
     case OutputFormat::pc2:
-      return std::make_unique<PointCache>(directory, bodies);
+      return std::make_unique<PointCache>(directory, bodies, kept);
   }
   throw Error(ErrorCode::internal, "no writer for the format " + format_name(format));
 }
 
-Writers make_writers(const Plan& plan, const std::string& directory) {
+/// `kept`: frames of an earlier run that stay.
+Writers make_writers(const Plan& plan, const std::string& directory, std::size_t kept) {
   std::vector<TrajectoryBody> bodies;
   for (const PlannedBody& body : plan.bodies) {
     const TriangleMesh& mesh = body.archive->geometry().input;
@@ -49,7 +52,7 @@ Writers make_writers(const Plan& plan, const std::string& directory) {
   }
   Writers writers;
   for (OutputFormat format : plan.scene.output.formats)
-    writers.push_back(make_writer(format, directory, bodies));
+    writers.push_back(make_writer(format, directory, bodies, kept));
   return writers;
 }
 
@@ -85,9 +88,12 @@ void check_finite(const Body& body, const BodyFrame& frame, double time) {
 class Run {
  public:
   Run(const Plan& plan, ArchiveSource& source, const Options& options, Log& log)
-      : plan_(plan), log_(log), bar_(log) {
+      : plan_(plan), options_(options), log_(log), bar_(log) {
     if (!options.stats.empty()) stats_file_ = std::make_unique<PendingFile>(options.stats);
     timer_.begin(kLoadingPhase);
+    if (options.resume || options.checkpoint_every > 0) identity_ = identity_of(plan, options);
+    std::unique_ptr<StateReader> earlier;
+    if (options.resume) earlier = open_checkpoint(options.output, identity_, plan.steps);
     simulation_ = std::make_unique<Simulation>(plan.scene, source);
     check_interrupt();
     bar_.finish();
@@ -96,9 +102,11 @@ class Run {
     for (const CollisionScene::Overlap& o : simulation_->overlaps())
       log_.warning(in_quotes(o.a) + " and " + in_quotes(o.b) + " overlap at the start, by " +
                    to_text(o.depth) + " m; move them apart");
-    prepare_output_directory(options.output,
-                             options.force ? ExistingOutput::replace : ExistingOutput::refuse);
-    writers_ = make_writers(plan, options.output);
+    if (earlier) restore(*earlier);
+    prepare_output_directory(options.output, options.resume  ? ExistingOutput::keep
+                                             : options.force ? ExistingOutput::replace
+                                                             : ExistingOutput::refuse);
+    writers_ = make_writers(plan, options.output, static_cast<std::size_t>(statistics_.frames()));
   }
 
   /// Steps to the end, a failure or an interruption, and completes the files in each case.
@@ -106,6 +114,7 @@ class Run {
     try {
       advance();
     } catch (const Interrupted& e) {
+      save_early();
       finish_early("interrupted");
       throw Interrupted(e.signal(), "; " + progress());
     } catch (const Error& e) {
@@ -119,15 +128,44 @@ class Run {
  private:
   void advance() {
     set_interruption_check(nullptr);  // a step that has begun is finished
-    write_frame();
+    if (statistics_.frames() == 0) write_frame();
     while (simulation_->steps() < plan_.steps) {
       check_interrupt();
       timer_.begin(kSteppingPhase);
       simulation_->step();
       if (const auto unmet = statistics_.record_step(*simulation_)) log_.detail(*unmet);
       if (plan_.schedule.contains(simulation_->steps())) write_frame();
+      if (options_.checkpoint_every > 0 && simulation_->steps() % options_.checkpoint_every == 0)
+        save();
       bar_.update(kSteppingPhase,
                   static_cast<double>(simulation_->steps()) / static_cast<double>(plan_.steps));
+    }
+    if (options_.checkpoint_every > 0) save();
+  }
+
+  void restore(StateReader& earlier) {
+    earlier(statistics_, timer_, *simulation_);
+    earlier.finish();
+    saved_ = simulation_->steps();
+    log_.info("going on from t = " + to_text(simulation_->time()) + " s: " + progress());
+    timer_.begin(kLoadingPhase);
+  }
+
+  /// After the frames of the state, so that they are there when it is.
+  void save() {
+    const long steps = simulation_->steps();
+    if (steps == saved_) return;
+    timer_.begin(kCheckpointPhase);
+    save_checkpoint(options_.output, identity_, steps, statistics_, timer_, *simulation_);
+    saved_ = steps;
+  }
+
+  /// Without a checkpoint the last one is still there.
+  void save_early() {
+    try {
+      if (options_.checkpoint_every > 0) save();
+    } catch (const Error& e) {
+      log_.warning(e.what());
     }
   }
 
@@ -174,7 +212,10 @@ class Run {
   }
 
   const Plan& plan_;
+  const Options& options_;
   Log& log_;
+  RunIdentity identity_;  ///< where there are checkpoints
+  long saved_ = -1;       ///< step of the last checkpoint
   RunStatistics statistics_;
   PhaseTimer timer_;
   ProgressBar bar_;
@@ -185,8 +226,9 @@ class Run {
 
 /// Notices early what prepare_output_directory would refuse, but removes nothing yet.
 void check_output(const Options& options) {
-  prepare_output_directory(options.output,
-                           options.force ? ExistingOutput::keep : ExistingOutput::refuse);
+  prepare_output_directory(options.output, options.force || options.resume
+                                               ? ExistingOutput::keep
+                                               : ExistingOutput::refuse);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 namespace bem {
 
 /// Simulates a plan and writes its frames. Whatever ends the run early leaves all frames so far
-/// readable, and statistics where they are asked for. Returns 0; throws ErrorCode::numerical,
-/// ErrorCode::resources, Interrupted.
+/// readable, and statistics and a checkpoint where they are asked for. Returns 0; throws
+/// ErrorCode::numerical, ErrorCode::resources, Interrupted.
 int run_simulation(const Plan& plan, ArchiveSource& source, const Options& options, Log& log);
 
 }  // namespace bem

@@ -14,6 +14,7 @@ class RunStatistics {
   std::optional<std::string> record_step(const Simulation& simulation);
   void record_frame() { ++frames_; }
   long frames() const { return frames_; }
+  void visit_state(StateArchive& state) { state(sum_, most_, unmet_, contact_steps_, frames_); }
   /// Says what constraints were not met, if any.
   std::optional<std::string> warning(const Plan& plan, const Simulation& simulation) const {
     return unmet_.warning(simulation.steps(), plan.scene.contact);
@@ -35,5 +36,6 @@ class RunStatistics {
 inline constexpr const char* kLoadingPhase = "loading";
 inline constexpr const char* kSteppingPhase = "stepping";
 inline constexpr const char* kOutputPhase = "output";
+inline constexpr const char* kCheckpointPhase = "checkpoint";
 
 }  // namespace bem

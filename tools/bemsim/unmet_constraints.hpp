@@ -21,6 +21,9 @@ class UnmetConstraints {
   std::optional<std::string> warning(long steps, const ContactSpec& contact) const;
   /// Steps by what was not met.
   nlohmann::ordered_json json() const;
+  void visit_state(StateArchive& state) {
+    state(steps_, first_, joints_, contacts_, penetrations_);
+  }
 
  private:
   struct Kind {

@@ -71,6 +71,25 @@ void PhaseTimer::end() {
   running_ = false;
 }
 
+void PhaseTimer::visit_state(StateArchive& state) {
+  end();
+  std::vector<Phase> phases = phases_;
+  state(phases);
+  if (!state.restores()) return;
+  for (Phase& own : phases_) {
+    const auto same = [&own](const Phase& p) { return p.name == own.name; };
+    const auto earlier = std::find_if(phases.begin(), phases.end(), same);
+    if (earlier == phases.end()) {
+      phases.push_back(own);
+      continue;
+    }
+    earlier->wall_seconds += own.wall_seconds;
+    earlier->cpu_seconds += own.cpu_seconds;
+    earlier->peak_memory = std::max(earlier->peak_memory, own.peak_memory);
+  }
+  phases_ = std::move(phases);
+}
+
 double PhaseTimer::total_wall_seconds() const {
   double total = 0;
   for (const Phase& p : phases_) total += p.wall_seconds;

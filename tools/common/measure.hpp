@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/state_archive.hpp"
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -20,11 +22,14 @@ class PhaseTimer {
     double wall_seconds = 0;
     double cpu_seconds = 0;       ///< of all threads
     std::size_t peak_memory = 0;  ///< of the process, at the end of the phase [bytes]
+    void visit_state(StateArchive& state) { state(name, wall_seconds, cpu_seconds, peak_memory); }
   };
 
   /// Ends the current phase, if any, and begins another; one that was there before goes on.
   void begin(const std::string& name);
   void end();
+  /// Ends the current phase. What is restored is added to what there is.
+  void visit_state(StateArchive& state);
 
   const std::vector<Phase>& phases() const { return phases_; }
   double total_wall_seconds() const;

@@ -211,6 +211,25 @@ TEST_CASE("contacts are the same for any number of threads and in every call") {
   CHECK(identical(one, refitted.detect(scene.motions())));
 }
 
+TEST_CASE("what a detector has seen before does not change its contacts") {
+  ContactScene scene;
+  scene.planes.push_back({Vec3::Zero(), kUp});
+  scene.add(box({0.3, 0.3, 0.1}, {1, 1, 1}), {1, 0, -0.05});
+  const TriangleMesh cube = box({0.1, 0.1, 0.1}, {2, 2, 2});
+  for (double x : {0.0, 1.0}) scene.add(cube, {x, 0, 0.05}, Vec3::Zero());
+  const auto rest = scene.start;
+  CollisionDetector detector = scene.detector();
+  std::size_t most = 0;
+  for (double gap : {1.2e-3, 0.9e-3, 1.05e-3, 0.6e-3, 0.95e-3, 1.3e-3, 0.99e-3, 1e-5}) {
+    for (std::size_t s = 1; s < rest.size(); ++s)
+      scene.start[s] = scene.end[s] = moved(rest[s], {0, 0, gap});
+    const auto found = detector.detect(scene.motions());
+    CHECK(identical(found, scene.detect()));
+    most = std::max(most, found.size());
+  }
+  CHECK(most >= 13);
+}
+
 TEST_CASE("a pair keeps its key while it stays together") {
   ContactScene scene;
   scene.add(box({0.3, 0.3, 0.1}, {1, 1, 1}), {0, 0, -0.05});

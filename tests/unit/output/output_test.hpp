@@ -5,6 +5,7 @@
 #include "unit/mesh/mesh_test.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace bem::test {
 
@@ -42,6 +43,47 @@ inline std::vector<std::string> names_in(const std::string& folder) {
     names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+/// Relative names and contents of all files below a folder.
+inline std::map<std::string, std::string> files_below(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      files[std::filesystem::relative(entry.path(), folder).string()] =
+          read_file(entry.path().string());
+  return files;
+}
+
+/// Writes seven frames; then the same in two runs, the first of which writes `first` frames of
+/// which `kept` stay, and compares all bytes. The first run is not closed.
+template <class Writer>
+void check_going_on(std::size_t first, std::size_t kept) {
+  const TemporaryFolder whole("whole"), parts("parts");
+  Writer writer(whole.path(), sample_bodies());
+  for (std::size_t f = 0; f < 7; ++f) writer.write(sample_frame(f));
+  writer.close();
+  {
+    Writer earlier(parts.path(), sample_bodies());
+    for (std::size_t f = 0; f < first; ++f) earlier.write(sample_frame(f));
+  }
+  Writer later(parts.path(), sample_bodies(), kept);
+  for (std::size_t f = kept; f < 7; ++f) later.write(sample_frame(f));
+  later.close();
+  const auto expected = files_below(whole.path()), found = files_below(parts.path());
+  CHECK(expected.size() == found.size());
+  for (const auto& [name, bytes] : expected) {
+    INFO(name);
+    CHECK((found.count(name) == 1 && found.at(name) == bytes));
+  }
+}
+
+/// Going on from more frames than there are is refused.
+template <class Writer>
+std::string refusal_to_go_on() {
+  const TemporaryFolder folder("short");
+  Writer(folder.path(), sample_bodies()).write(sample_frame(0));
+  return error_message(ErrorCode::resources, [&] { Writer(folder.path(), sample_bodies(), 2); });
 }
 
 }  // namespace bem::test

@@ -49,3 +49,9 @@ TEST_CASE("OBJ frames that cannot be written are a resource error") {
   CHECK_THAT(error_message(ErrorCode::resources, [&] { writer.write(test::sample_frame(0)); }),
              StartsWith(folder / "obj/small_000000.obj: "));
 }
+
+TEST_CASE("a sequence of OBJ frames that goes on ends in the same bytes") {
+  test::check_going_on<ObjSequence>(3, 3);
+  test::check_going_on<ObjSequence>(5, 2);
+  test::check_going_on<ObjSequence>(7, 7);
+}

@@ -75,8 +75,9 @@ TEST_CASE("replacing removes all that the writers write and nothing else") {
   for (const std::string& name : mine) touch(folder / name);
   fs::create_directory(folder / "obj/folder_000000.obj");
   const std::vector<std::string> left = {"obj/small_000003.obj.tmp", "vtp/small_000003.vtp.tmp",
-                                         "vtp/trajectory.pvd.tmp", "pc2/small.obj.tmp",
-                                         "pc2/other.pc2.tmp"};
+                                         "vtp/trajectory.pvd.tmp",   "pc2/small.obj.tmp",
+                                         "pc2/other.pc2.tmp",        "trajectory.h5.earlier",
+                                         "checkpoint.bin",           "checkpoint.bin.partial-12"};
   for (const std::string& name : left) touch(folder / name);
   prepare_output_directory(folder.path(), ExistingOutput::replace);
   CHECK(find_output(folder.path()).empty());

@@ -95,3 +95,10 @@ TEST_CASE("a point cache that cannot be written is a resource error") {
       error_message(ErrorCode::resources, [&] { PointCache(folder.path(), sample_bodies()); }),
       StartsWith(folder / "pc2/small.pc2: "));
 }
+
+TEST_CASE("a point cache that goes on ends in the same bytes") {
+  test::check_going_on<PointCache>(3, 3);
+  test::check_going_on<PointCache>(5, 2);
+  test::check_going_on<PointCache>(7, 7);
+  CHECK_THAT(test::refusal_to_go_on<PointCache>(), Contains("to go on from"));
+}

@@ -119,3 +119,19 @@ TEST_CASE("VTP frames that cannot be written are a resource error and not in the
              StartsWith(folder / "vtp/large one_000000.vtp: "));
   CHECK_THAT(test::read_file(folder / "vtp/trajectory.pvd"), !Contains("DataSet"));
 }
+
+TEST_CASE("a sequence of VTP frames that goes on ends in the same bytes") {
+  test::check_going_on<VtpSequence>(3, 3);
+  test::check_going_on<VtpSequence>(5, 2);
+  test::check_going_on<VtpSequence>(7, 7);
+  CHECK_THAT(test::refusal_to_go_on<VtpSequence>(), Contains("to go on from"));
+}
+
+TEST_CASE("VTP frames without their list cannot go on") {
+  const test::TemporaryFolder folder("vtp_unlisted");
+  VtpSequence(folder.path(), sample_bodies()).write(sample_frame(0));
+  std::filesystem::remove(folder / "vtp/trajectory.pvd");
+  CHECK_THAT(
+      error_message(ErrorCode::resources, [&] { VtpSequence(folder.path(), sample_bodies(), 1); }),
+      Contains("to go on from"));
+}

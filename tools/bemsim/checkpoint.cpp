@@ -1,0 +1,89 @@
+#include "checkpoint.hpp"
+
+#include "archive/digest.hpp"
+#include "base/error.hpp"
+#include "base/file_descriptor.hpp"
+#include "common/cli.hpp"
+#include "mesh/describe.hpp"
+#include "output/output_directory.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+
+namespace bem {
+namespace {
+
+/// The scene's JSON with its keys in a fixed order and the output as the command line has it.
+std::string scene_text(const Plan& plan, const Options& options) {
+  std::ifstream file(options.scene);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  nlohmann::json scene = nlohmann::json::parse(text, nullptr, false);
+  if (!scene.is_object())
+    throw Error(ErrorCode::invalid_input,
+                options.scene + ": cannot be read again, which checkpoints need");
+  scene.erase("duration");
+  const OutputSpec& output = plan.scene.output;
+  nlohmann::json formats = nlohmann::json::array();
+  for (OutputFormat format : output.formats) formats.push_back(format_name(format));
+  const std::string frames =
+      options.fps ? "--fps " + to_text(*options.fps) : "--every " + std::to_string(output.every);
+  scene["output"] = {{"formats", formats}, {"frames", frames}, {"fields", output.fields}};
+  return scene.dump();
+}
+
+std::string file_digest(const std::string& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  if (!file || unknown) throw Error(ErrorCode::resources, path + ": cannot be read");
+  return tree_digest(file.get(), 0, size, path);
+}
+
+}  // namespace
+
+RunIdentity identity_of(const Plan& plan, const Options& options) {
+  RunIdentity out{version_text(), scene_text(plan, options), ""};
+  for (const PlannedBody& body : plan.bodies) out.archives += body.archive->user_block().digest;
+  for (const ObstacleSpec& obstacle : plan.scene.obstacles)
+    if (const auto* mesh = std::get_if<MeshObstacle>(&obstacle.shape))
+      out.archives += file_digest(mesh->mesh.resolved);
+  return out;
+}
+
+std::string checkpoint_path(const std::string& directory) {
+  return directory + "/" + kCheckpointFile;
+}
+
+std::unique_ptr<StateReader> open_checkpoint(const std::string& directory,
+                                             const RunIdentity& identity, long planned_steps) {
+  const std::string path = checkpoint_path(directory);
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown))
+    throw Error(ErrorCode::usage, path +
+                                      ": there is no checkpoint to go on from; run without "
+                                      "--resume, and with --checkpoint-every to make one");
+  auto reader = std::make_unique<StateReader>(path);
+  RunIdentity earlier;
+  long steps = 0;
+  (*reader)(earlier, steps);
+  const auto refuse = [&](ErrorCode code, const std::string& what) {
+    throw Error(code, path + ": " + what);
+  };
+  if (earlier.program != identity.program)
+    refuse(ErrorCode::invalid_input,
+           "was made by " + earlier.program + ", and this is " + identity.program);
+  if (earlier.scene != identity.scene)
+    refuse(ErrorCode::invalid_input, "is of another scene or output; only the duration may change");
+  if (earlier.archives != identity.archives)
+    refuse(ErrorCode::archive, "was made with other archives or obstacles");
+  if (steps > planned_steps)
+    refuse(ErrorCode::usage, "is of step " + std::to_string(steps) + ", beyond the end at step " +
+                                 std::to_string(planned_steps));
+  return reader;
+}
+
+}  // namespace bem
