@@ -84,8 +84,8 @@ class ElasticPart {
 
   /// Between two steps; compliances come again by themselves.
   void visit_state(StateArchive& state) {
-    state(offset_, displacement_history_, acceleration_history_, corner_history_,
-          traction_history_, solution_memory_);
+    state(offset_, displacement_history_, acceleration_history_, corner_history_, traction_history_,
+          solution_memory_);
   }
 
  private:

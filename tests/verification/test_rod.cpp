@@ -75,8 +75,7 @@ class ReactionMeter {
 RodRun run_rod(const char* scheme, bool fixed, int cells, double steps_per_period,
                const char* frame = "moving", bool double_nodes = false) {
   const Material m = material(kDensity, kYoung / 2, 0);
-  BodyGeometry g =
-      geometry_of(box(Vec3(kLength, 0.2, 0.2), {5 * cells, cells, cells}), m.density);
+  BodyGeometry g = geometry_of(box(Vec3(kLength, 0.2, 0.2), {5 * cells, cells, cells}), m.density);
   if (double_nodes) g.corner_angle_deg = 40;
   const double dt = kPeriod / steps_per_period;
   PrecomputeOptions o = options_for(g, m, scheme, g.extent / (m.shear_speed() * dt));
@@ -126,8 +125,9 @@ RodRun run_rod(const char* scheme, bool fixed, int cells, double steps_per_perio
   std::printf(
       "rod %s%s %s, %d cells, %.0f steps/period, lam %.2f, n_max %d: rms %.4f (delayed %.4f) "
       "peak %.3f lateral %.2g",
-      fixed ? "fixed" : "free", double_nodes ? " with double nodes" : "", scheme, cells, steps_per_period, g.extent / (m.shear_speed() * dt),
-      o.discretisation.history_length, run.rms, run.delayed, run.peak, run.lateral);
+      fixed ? "fixed" : "free", double_nodes ? " with double nodes" : "", scheme, cells,
+      steps_per_period, g.extent / (m.shear_speed() * dt), o.discretisation.history_length, run.rms,
+      run.delayed, run.peak, run.lateral);
   if (fixed)
     std::printf(" reaction %.3f %.3f %.3f %.3f\n", run.reaction[0], run.reaction[1],
                 run.reaction[2], run.reaction[3]);
