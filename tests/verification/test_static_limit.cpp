@@ -183,7 +183,7 @@ TEST_CASE("free bodies under balanced loads come to the exact elastostatic defor
 }
 
 TEST_CASE("held bodies come to the elastostatic solution of the same discretisation") {
-  const Vec3 traction(4e5, -6e5, 2e5);  // linear: the size only lowers the rounding
+  const Vec3 traction(4e4, -6e4, 2e4);  // linear: the size only lowers the rounding
   for (const double nu : {0.0, 0.3, 0.5}) {
     const Setup s{
         box(Vec3(0.4, 0.2, 0.2), {2, 1, 1}), material(1000, 1e6, nu), "bdf1", 0.3, 1, 1500};

@@ -239,7 +239,7 @@ TEST_CASE("A sealed file that is not what this version understands is refused") 
     seal_archive(folder / "a.bem");
     return error_of([&] { Archive(folder / "a.bem"); });
   };
-  CHECK(refusal("static", "none").second.find("model \"static\"") != std::string::npos);
+  CHECK(refusal("plastic", "none").second.find("model \"plastic\"") != std::string::npos);
   CHECK(refusal("dynamic", "zip").second.find("codec \"zip\"") != std::string::npos);
   const auto [code, message] = refusal("dynamic", "none");
   CHECK(code == 4);

@@ -56,13 +56,14 @@ TEST_CASE("the scenes that the errors are made from are valid") {
 TEST_CASE("an unknown key is answered with the nearest valid one") {
   REQUIRE(body_error("@\"gravty\": true") ==
           "/bodies/0/gravty: unknown key; did you mean \"gravity\"? (allowed: name, archive, "
-          "position, rotation, velocity, angular_velocity, frame, gravity, friction, fixed, "
+          "position, rotation, velocity, angular_velocity, frame, correction, gravity, friction, "
+          "fixed, "
           "handles, tractions)");
   REQUIRE(world_error("  @\"colour\": 1") ==
           "/colour: unknown key (allowed: version, time_step, duration, gravity, bodies, "
           "obstacles, joints, contact, output)");
-  REQUIRE_THAT(body_error("@\"correction\": true"),
-               Catch::StartsWith("/bodies/0/correction: unknown key ("));
+  REQUIRE_THAT(body_error("@\"weather\": true"),
+               Catch::StartsWith("/bodies/0/weather: unknown key ("));
   REQUIRE(minimal("\"archive\"", "@\"archiv\"") ==
           "/bodies/0/archiv: unknown key; did you mean \"archive\"?");
   REQUIRE(minimal("\"time_step\"", "@\"timestep\"") ==
