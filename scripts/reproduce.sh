@@ -24,7 +24,7 @@ for figure in FIGURES:
   --threads N    of bemsim (1, as in the paper)
   --scheme NAME  of the archives (bdf1, as in the paper), in out/paper/NAME
   --update-docs  puts the tables and pictures into docs/paper.md and docs/images/paper
-In full size everything takes about an hour on 2 cores, 8 GB of memory and 12 GB of disk."
+In full size everything takes about 40 minutes on 2 cores, 8 GB of memory and 12 GB of disk."
     exit 0 ;;
 esac
 [[ -n ${BEM_BIN:-} ]] || ./scripts/setup.sh
