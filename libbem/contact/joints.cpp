@@ -15,7 +15,6 @@
 #include <numeric>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 
 namespace bem {
 namespace {
@@ -269,9 +268,7 @@ std::pair<Mat3, Vec3> best_motion(const std::vector<const Joint*>& joints, doubl
   Mat3 covariance = Mat3::Zero();
   for (std::size_t i = 0; i < joints.size(); ++i)
     covariance += (targets[i] - to) * (joints[i]->place - from).transpose();
-  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  const Mat3 rotation = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+  const Mat3 rotation = best_rotation(covariance);
   return {rotation, to - rotation * from};
 }
 

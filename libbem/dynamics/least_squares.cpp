@@ -3,10 +3,8 @@
 #include "algebra/gmres.hpp"
 #include "base/error.hpp"
 #include "compress/complex_product.hpp"
-
-#include <algorithm>
-
-#include <Eigen/SVD>
+#include "dynamics/rotation.hpp"
+#include "mesh/shape_weights.hpp"
 
 namespace bem {
 namespace {
@@ -28,13 +26,6 @@ Eigen::MatrixXd transposed_product(const ElasticSystem& system, const Eigen::Mat
                 "the least-squares correction cannot be set up with the matrices of this body; use "
                 "a smaller --codec-tol, or the correction \"projection\"");
   return x * sizes.asDiagonal();
-}
-
-std::vector<double> shape_weights(const TriangleMesh& mesh) {
-  std::vector<double> weights = volume_weights(mesh, Vec3::Zero());
-  // strongly nonconvex bodies have negative weights: match shapes by surface area there
-  if (*std::min_element(weights.begin(), weights.end()) < 0) weights = vertex_areas(mesh);
-  return weights;
 }
 
 }  // namespace
@@ -67,9 +58,7 @@ Vector6 LeastSquaresCorrection::accelerations(const Eigen::VectorXd& predicted,
   for (Eigen::Index i = 0; i < n; ++i)
     covariance +=
         weights_[i] * (deformed.vertices[i] - to) * (mesh_.vertices[i] - from).transpose();
-  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  const Mat3 rotation = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+  const Mat3 rotation = best_rotation(covariance);
 
   Eigen::VectorXd shifted = predicted - v, turned = -v;
   for (Eigen::Index i = 0; i < n; ++i) {

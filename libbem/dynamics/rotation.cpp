@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/SVD>
+
 namespace bem {
 
 Mat3 rotation_exp(const Vec3& v) {
@@ -29,6 +31,12 @@ Vec3 rotation_vector_rate(const Vec3& theta, const Vec3& omega) {
   }
   const Vec3 turn = theta.cross(omega);
   return omega - 0.5 * turn + c * theta.cross(turn);
+}
+
+Mat3 best_rotation(const Mat3& m) {
+  const Eigen::JacobiSVD<Mat3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  return svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
 }
 
 Mat3 orthonormalised(const Mat3& rotation) {

@@ -1,8 +1,7 @@
 #include "model/rigid_projection.hpp"
 
 #include "base/error.hpp"
-
-#include <algorithm>
+#include "mesh/shape_weights.hpp"
 
 namespace bem {
 
@@ -10,9 +9,7 @@ Eigen::MatrixXd rigid_part(const TriangleMesh& mesh) {
   const auto n = static_cast<Eigen::Index>(mesh.vertices.size());
   const double volume = mass_properties(mesh, 1).volume;
   const std::vector<Mat3> centroid = volume_centroid_weights(mesh, Vec3::Zero());
-  std::vector<double> weights = volume_weights(mesh, Vec3::Zero());
-  // strongly nonconvex bodies have negative weights: match shapes by surface area there
-  if (*std::min_element(weights.begin(), weights.end()) < 0) weights = vertex_areas(mesh);
+  const std::vector<double> weights = shape_weights(mesh);
   Mat3 moment = Mat3::Zero();
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vec3& x = mesh.vertices[i];

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -131,31 +132,34 @@ std::optional<InverseKind> parse_inverse(const std::string& text) {
   refuse("--inverse is dense, iterative or auto, not \"" + text + "\"");
 }
 
+/// The number that the text is, if it is one and nothing else.
+std::optional<double> number_of(std::string_view text) {
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = code == std::errc() && end == text.data() + text.size();
+  return whole ? std::optional(value) : std::nullopt;
+}
+
 double parse_window(const std::string& text) {
   if (text == "auto") return 0;
-  double q = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), q);
-  if (code == std::errc() && end == text.data() + text.size() && q > 0 && q <= 1) return q;
+  const std::optional<double> q = number_of(text);
+  if (q && *q > 0 && *q <= 1) return *q;
   refuse("--window is auto or a number q with 0 < q <= 1, not \"" + text + "\"");
 }
 
 std::optional<double> parse_corner_angle(const std::string& text) {
   if (text == "none") return std::nullopt;
-  double degrees = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), degrees);
-  if (code == std::errc() && end == text.data() + text.size() && degrees > 0 && degrees < 180)
-    return degrees;
+  const std::optional<double> degrees = number_of(text);
+  if (degrees && *degrees > 0 && *degrees < 180) return degrees;
   refuse("--corner-angle-deg is none or an angle between 0 and 180, not \"" + text + "\"");
 }
 
 Damping parse_damping(const std::string& text) {
-  const std::string law = "kelvin_voigt:";
+  constexpr std::string_view kLaw = "kelvin_voigt:";
   if (text == "off") return {};
-  double time = 0;
-  const char* const end = text.data() + text.size();
-  if (text.compare(0, law.size(), law) == 0) {
-    const auto [rest, code] = std::from_chars(text.data() + law.size(), end, time);
-    if (code == std::errc() && rest == end && std::isfinite(time) && time > 0) return {time};
+  if (text.compare(0, kLaw.size(), kLaw) == 0) {
+    const std::optional<double> time = number_of(std::string_view(text).substr(kLaw.size()));
+    if (time && std::isfinite(*time) && *time > 0) return {*time};
   }
   refuse("--damping is off or kelvin_voigt:T with a time T > 0 [s], not \"" + text + "\"");
 }
