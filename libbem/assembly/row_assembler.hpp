@@ -18,6 +18,7 @@ struct BlockRow {
   AlignedVector<T> g;       ///< [vertex][6][padded lane]
   AlignedVector<double> d;  ///< [9][padded lane]
   AlignedVector<double> q;  ///< [9][padded lane]
+  AlignedVector<double> c;  ///< [18][padded lane]: 3x6, columns xx xy xz yy yz zz of B
 
   const T* h_block(int vertex) const { return &h[std::size_t(vertex) * 9 * padded_lanes]; }
   const T* g_block(int vertex) const { return &g[std::size_t(vertex) * 6 * padded_lanes]; }
@@ -33,7 +34,7 @@ struct Discretisation {
   Damping damping = {};
 };
 
-/// Assembles all lags of H, G, D and Q together in real arithmetic, one block row at a time. The
+/// Assembles all lags of H, G, D, Q and C together in real arithmetic, one block row at a time. The
 /// mesh has its origin at the centre of mass. Thread safe: rows may be assembled in parallel, each
 /// thread with its own Workspace. Cost per row: O(N) panels of 6 to 33 points.
 class RowAssembler {
@@ -95,7 +96,8 @@ class RowAssembler {
 };
 
 /// |s|_max dt of the scheme: the largest modulus on the unit circle of the principal eigenvalue of
-/// Delta. (The other eigenvalue of a Runge-Kutta method is strongly damped where it is larger.)
+/// Delta, and of others that are weakly damped. (That of radau2 is strongly damped where it is
+/// larger than the principal one.)
 double largest_symbol(const Scheme& scheme);
 
 }  // namespace bem

@@ -70,7 +70,7 @@ void translation_row_sums(const Scheme& scheme, const LaneLayout& layout, double
     } else {
       sum = rest;
     }
-    const StageVectorC x = scheme.extract(sum.cast<Complex>());
+    const ComponentVectorC x = scheme.extract(sum.cast<Complex>());
     for (int m = 0; m < layout.components; ++m) row_sums[layout.lane(k, m)] = x[m].real();
   }
 }

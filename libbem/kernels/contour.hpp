@@ -54,7 +54,7 @@ class ContourQuadrature {
   /// Eigenvalues of Delta at one contour point and the components of their spectral projectors.
   struct Point {
     StageVectorC eigenvalues;
-    std::vector<StageVectorC> components;  // one per eigenvalue
+    std::vector<ComponentVectorC> components;  // one per eigenvalue
   };
   struct Transform;
 

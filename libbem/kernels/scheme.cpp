@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 
@@ -32,8 +33,55 @@ Scheme Scheme::radau2() {
     return c;
   };
   s.components_ = {component(1, 0, 1, 1), component(0, 1, -3, 1), component(1, 3, 1, 0)};
+  s.extraction_.resize(3, 4);
+  s.extraction_ << 0, 1, 0, 0, 0, 0, 0, 1, 1, -1, 0, 0;
   s.set_initial_components();
   return s;
+}
+
+Scheme Scheme::radau3() {
+  const double r = std::sqrt(6.0);
+  Scheme s;
+  s.name_ = "radau3";
+  s.stage_times_.resize(3);
+  s.stage_times_ << (4 - r) / 10, (4 + r) / 10, 1.0;
+  s.integration_.resize(3, 3);
+  s.integration_ << (88 - 7 * r) / 360, (296 - 169 * r) / 1800, (-2 + 3 * r) / 225,
+      (296 + 169 * r) / 1800, (88 + 7 * r) / 360, (-2 - 3 * r) / 225, (16 - r) / 36, (16 + r) / 36,
+      1.0 / 9;
+  const StageMatrix inverse = s.integration_.inverse();
+  StageMatrix last = StageMatrix::Zero(3, 3);
+  last.col(2).setOnes();
+  s.delta_ = {inverse, -inverse * last};
+  // nodes with well-conditioned components (3.4)
+  s.set_interpolated_components({std::numeric_limits<double>::infinity(), -5, -1, 3, 9});
+  s.set_initial_components();
+  return s;
+}
+
+/// Components of a Runge-Kutta method. A weight is a contour integral over z of l(z) r(z)^T times a
+/// scalar, l = (z - A^{-1})^{-1} A^{-1} 1 and r^T = e_s^T (z - A^{-1})^{-1} but for a common
+/// denominator, which makes them polynomials of degree s - 1. Their product is interpolated at
+/// 2 s - 1 nodes.
+void Scheme::set_interpolated_components(const std::vector<double>& nodes) {
+  const StageMatrix inverse = integration_.inverse();
+  const StageMatrix one = StageMatrix::Identity(stages(), stages());
+  const StageVector start = inverse * StageVector::Ones(stages());
+  Eigen::MatrixXd products(stages() * stages(), static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t m = 0; m < nodes.size(); ++m) {
+    LagComponent c{start, one.col(stages() - 1)};  // at infinity
+    if (std::isfinite(nodes[m])) {
+      const StageMatrix resolvent = (nodes[m] * one - inverse).inverse();
+      c = {resolvent * start, resolvent.row(stages() - 1).transpose()};
+    }
+    c.left.normalize();
+    c.right.normalize();
+    for (int a = 0; a < stages(); ++a)
+      products.col(static_cast<Eigen::Index>(m)).segment(a * stages(), stages()) =
+          c.left[a] * c.right;
+    components_.push_back(c);
+  }
+  extraction_ = products.completeOrthogonalDecomposition().pseudoInverse();
 }
 
 Scheme Scheme::multistep(double theta) {
@@ -54,12 +102,14 @@ Scheme Scheme::multistep(double theta) {
   s.integration_ = scalar(1 / (1 + theta / 2));
   s.delta_ = {scalar(1 + theta / 2), scalar(-1 - theta), scalar(theta / 2)};
   s.components_ = {{StageVector::Ones(1), StageVector::Ones(1)}};
+  s.extraction_ = Eigen::MatrixXd::Ones(1, 1);
   s.set_initial_components();
   return s;
 }
 
 Scheme Scheme::parse(const std::string& name) {
   if (name == "radau2") return radau2();
+  if (name == "radau3") return radau3();
   if (name == "bdf1") return multistep(0);
   if (name == "bdf2") return multistep(1);
   if (name.rfind("theta:", 0) == 0) {
@@ -69,8 +119,9 @@ Scheme Scheme::parse(const std::string& name) {
     if (result.ec == std::errc() && result.ptr == end && theta >= 0 && theta <= 1)
       return multistep(theta);
   }
-  throw Error(ErrorCode::usage, "unknown time discretisation \"" + name +
-                                    "\"; use radau2, bdf1, bdf2 or theta:T with 0 <= T <= 1");
+  throw Error(ErrorCode::usage,
+              "unknown time discretisation \"" + name +
+                  "\"; use radau2, radau3, bdf1, bdf2 or theta:T with 0 <= T <= 1");
 }
 
 Scheme Scheme::windowed(double q) const {
@@ -114,12 +165,12 @@ void Scheme::set_initial_components() {
   }
 }
 
-StageVectorC Scheme::extract(const StageMatrixC& w) const {
-  StageVectorC x(static_cast<int>(components_.size()));
-  if (stages() == 1)
-    x << w(0, 0);
-  else
-    x << w(0, 1), w(1, 1), w(0, 0) - w(0, 1);
+ComponentVectorC Scheme::extract(const StageMatrixC& w) const {
+  ComponentVectorC x = ComponentVectorC::Zero(extraction_.rows());
+  for (Eigen::Index a = 0; a < w.rows(); ++a)
+    for (Eigen::Index b = 0; b < w.cols(); ++b)
+      for (Eigen::Index m = 0; m < x.size(); ++m)
+        x[m] += extraction_(m, a * w.cols() + b) * w(a, b);
   return x;
 }
 

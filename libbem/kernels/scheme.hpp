@@ -8,6 +8,7 @@
 namespace bem {
 
 inline constexpr int kMaxStages = 3;
+inline constexpr int kMaxComponents = 2 * kMaxStages - 1;
 
 using StageMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxStages, kMaxStages>;
@@ -15,6 +16,8 @@ using StageMatrixC =
     Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxStages, kMaxStages>;
 using StageVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxStages, 1>;
 using StageVectorC = Eigen::Matrix<Complex, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxStages, 1>;
+using ComponentVectorC =
+    Eigen::Matrix<Complex, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxComponents, 1>;
 
 /// The weight of lag 0 in spectral form: X_0 = sum_i Re(m_i X(lambda_i/dt) left_i right_i^T), where
 /// lambda_i are the eigenvalues of Delta(0); m_i = 2 stands for a complex-conjugate pair.
@@ -32,17 +35,19 @@ struct LagComponent {
 };
 
 /// Time discretisation behind the convolution quadrature: a multistep method of the theta family
-/// (BDF1 to BDF2) with one stage per step, or the two-stage Radau IIA method (docs/method.md,
-/// "Time discretisation"). Its weights of a transfer function X(s) are defined by
+/// (BDF1 to BDF2) with one stage per step, or the Radau IIA method of two or three stages
+/// (docs/method.md, "Time discretisation"). Its weights of a transfer function X(s) are defined by
 /// X(Delta(zeta)/dt) = sum_k X_k zeta^k with s x s stage matrices X_k.
 ///
-/// For Radau IIA the four entries of every X_k, k >= 1, obey one linear relation, because Delta
-/// depends on zeta through a rank-one matrix. Three components are stored instead of four.
+/// For Radau IIA the s^2 entries of every X_k, k >= 1, are combinations of 2 s - 1 numbers, because
+/// Delta depends on zeta through a rank-one matrix. So many components are stored.
 class Scheme {
  public:
-  /// "radau2", "bdf1", "bdf2" or "theta:T" with 0 <= T <= 1; throws ErrorCode::usage otherwise.
+  /// "radau2", "radau3", "bdf1", "bdf2" or "theta:T" with 0 <= T <= 1; throws ErrorCode::usage
+  /// otherwise.
   static Scheme parse(const std::string& name);
   static Scheme radau2();
+  static Scheme radau3();
   /// gamma(zeta) = (1-zeta) + theta/2 (1-zeta)^2: theta = 0 is BDF1, theta = 1 is BDF2.
   static Scheme multistep(double theta);
 
@@ -69,10 +74,11 @@ class Scheme {
   const std::vector<InitialComponent>& initial_components() const { return initial_; }
   const std::vector<LagComponent>& lag_components() const { return components_; }
   /// The component functions X^m of a stage matrix that is a sum of weights of lags k >= 1.
-  StageVectorC extract(const StageMatrixC& weight) const;
+  ComponentVectorC extract(const StageMatrixC& weight) const;
 
  private:
   void set_initial_components();
+  void set_interpolated_components(const std::vector<double>& nodes);
 
   std::string name_;
   double theta_ = 0;
@@ -81,6 +87,7 @@ class Scheme {
   std::vector<StageMatrix> delta_;
   std::vector<InitialComponent> initial_;
   std::vector<LagComponent> components_;
+  Eigen::MatrixXd extraction_;  ///< components x s^2: extract() of a weight, row after row
 };
 
 /// Number of past steps that are kept by default for lam = r_max/(c2 dt)  [method (M24), 14.2]:

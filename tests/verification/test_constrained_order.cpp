@@ -147,7 +147,7 @@ struct Run {
 /// halved, the last time to `steps` steps.
 void check_orders(int steps) {
   const std::pair<const char*, double> schemes[] = {
-      {"radau2", 2.7}, {"bdf2", 1.75}, {"theta:0.75", 0.75}, {"bdf1", 0.75}};
+      {"radau2", 2.7}, {"radau3", 4.6}, {"bdf2", 1.75}, {"theta:0.75", 0.75}, {"bdf1", 0.75}};
   for (const auto& [scheme, least] : schemes) {
     Run coarse(scheme, steps / 4), middle(scheme, steps / 2), fine(scheme, steps);
     for (Problem problem :

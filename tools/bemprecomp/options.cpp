@@ -37,8 +37,9 @@ void add_matrix_options(CLI::App& app, Typed& t) {
   app.option_defaults()->group("Matrices");
   app.add_option("--dt", o.dt, "time step [s]; default: the material's \"time_step\"")
       ->type_name("S");
-  app.add_option("--scheme", o.scheme,
-                 "radau2, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2; --model static: bdf1)")
+  app.add_option(
+         "--scheme", o.scheme,
+         "radau2, radau3, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2; --model static: bdf1)")
       ->type_name("NAME");
   app.add_option("--window", t.window,
                  "factor 0 < q <= 1 on the weights per lag, 1 for none; auto: the weakest that "

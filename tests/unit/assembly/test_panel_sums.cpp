@@ -52,7 +52,7 @@ double worst_difference(const LaneTable<T>& table, const LaneTable<double>& exac
 }  // namespace
 
 TEST_CASE("the vectorised panel sums agree with the scalar reference on every instruction set") {
-  for (const char* name : {"bdf1", "theta:0.75", "radau2"}) {
+  for (const char* name : {"bdf1", "theta:0.75", "radau2", "radau3"}) {
     const RadialTable table(Scheme::parse(name), 0.2, 3.0, 5);
     const LaneTable<float> single = table.single_precision();
     for (bool singular : {false, true})

@@ -67,7 +67,7 @@ struct Trial {
 TEST_CASE("compliances are the derivatives of the positions by the forces") {
   constexpr double kForce = 1e-4;
   for (bool rigid : {false, true})
-    for (const char* scheme : {"radau2", "bdf1", "bdf2"}) {
+    for (const char* scheme : {"radau2", "radau3", "bdf1", "bdf2"}) {
       INFO(scheme << (rigid ? " rigid" : " elastic"));
       Trial trial(scheme, rigid);
       Body& body = *trial.body;
@@ -94,7 +94,11 @@ TEST_CASE("compliances are the derivatives of the positions by the forces") {
               const Eigen::VectorXd moved =
                   (trial.positions(rows, std::min(a, stages - 1)) - before[a]) / kForce;
               const Eigen::MatrixXd block = body.compliance(rows, a, columns, b);
-              CHECK((moved - block.col(j)).norm() <= 1e-5 * block.colwise().norm().maxCoeff());
+              // the force of the last stage does not move a rigid body at its end
+              const double rounding =
+                  1e-7 * body.compliance(Group::contact, 0, Group::contact, 0).norm();
+              CHECK((moved - block.col(j)).norm() <=
+                    1e-5 * block.colwise().norm().maxCoeff() + rounding);
             }
             body.joint_forces().setZero();
             body.contact_forces().setZero();
@@ -105,7 +109,7 @@ TEST_CASE("compliances are the derivatives of the positions by the forces") {
 }
 
 TEST_CASE("the end of a step is where its constraint nodes are") {
-  for (const char* scheme : {"radau2", "theta:0.5"}) {
+  for (const char* scheme : {"radau2", "radau3", "theta:0.5"}) {
     Trial trial(scheme, false);
     Body& body = *trial.body;
     body.joint_forces().setConstant(0.3);

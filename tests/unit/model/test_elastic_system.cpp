@@ -38,7 +38,7 @@ TEST_CASE("a lag history weights, combines and forgets its values") {
 
 TEST_CASE("solutions satisfy the boundary integral equation and carry no rigid motion") {
   const Material m = material(1000, 1e6, 0.3);
-  for (const char* scheme : {"radau2", "theta:0.5"}) {
+  for (const char* scheme : {"radau2", "radau3", "theta:0.5"}) {
     const BodyGeometry g = geometry_of(star(1, 0.4), m.density);
     const BodyModel model = precompute(g, options_for(g, m, scheme, 3));
     const ElasticSystem system(model);
