@@ -25,10 +25,11 @@ double square(const BodyGeometry& g) {
   return n * n;
 }
 
-/// Body forces and the balance matrices, in double precision.
+/// Body forces of accelerations and rotation, and the balance matrices, in double precision.
 double small_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
   const Counts c = counts_of(o);
-  return 3.0 * static_cast<double>(g.nodes.vertices.size()) * 6 * 8 * (c.lags + c.parts + c.kinds);
+  return 3.0 * static_cast<double>(g.nodes.vertices.size()) * 6 * 8 *
+         (2 * (c.lags + c.parts) + c.kinds);
 }
 
 /// Bytes that numbers of lag 0 take while they are factorised: complex ones count twice.
@@ -39,8 +40,10 @@ double initial_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
   return bytes;
 }
 
-double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o, double stored) {
-  constexpr double kCopies = 3.5;  // of the numbers of a block while its bases are found
+double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o,
+                       const StoredEstimate& stored) {
+  constexpr double kCopies = 2;  // of the numbers of a block while its bases are found
+  constexpr double kProgram = 3e7;
   constexpr double kTileNodes = 8;
   const Counts c = counts_of(o);
   const double n = 3.0 * static_cast<double>(g.nodes.vertices.size());
@@ -54,7 +57,7 @@ double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o, double
   const double rows = kTileNodes * n * 5 * 4 * (c.lags + c.parts + 4);  // of the assembler
   const double work = thread_count() * (kCopies * 4 * widest * c.lags + rows);
   const double dense = o.inverse == InverseKind::dense ? initial_bytes(g, o) : 0;
-  return stored + dense + slab + work;
+  return kProgram + std::max(stored.assembly_bytes + dense + slab + work, stored.bytes);
 }
 
 }  // namespace
@@ -72,10 +75,11 @@ StoredEstimate estimate_stored(const BodyGeometry& g, const PrecomputeOptions& o
     if (o.codec.ratio > 0) out.bytes *= std::min(1.0, kWithIndices / o.codec.ratio);
   }
   out.bytes += small_bytes(g, o);
+  out.assembly_bytes += small_bytes(g, o);
   return out;
 }
 
-double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, double stored) {
+double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, const StoredEstimate& stored) {
   if (o.kind == ModelKind::rigid) return 0;
   if (o.codec.codec == Codec::lowrank) return compressed_peak(g, o, stored);
   const Counts c = counts_of(o);
@@ -83,7 +87,7 @@ double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, double stor
   // lag 0 is double while it is factorised; the stored copies replace it one by one
   const double lags = square(g) * entry * c.kinds * c.lags;
   const double initial = o.inverse == InverseKind::dense ? initial_bytes(g, o) * c.kinds : 0;
-  return std::max(lags + initial + square(g) * entry * c.parts, stored) + small_bytes(g, o);
+  return std::max(lags + initial + square(g) * entry * c.parts, stored.bytes) + small_bytes(g, o);
 }
 
 }  // namespace bem

@@ -297,14 +297,19 @@ StoredEstimate sample_compression(const BodyGeometry& geometry, const Precompute
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   take_families(targets, model);
-  double lags = 0, initial = 0;
+  double lags = 0, initial = 0, initial_g = 0;
   for (const auto* family : {model.h.get(), model.g.get()})
     if (family) lags += static_cast<double>(family->bytes());
   for (const auto* families : {&model.initial_h, &model.initial_g})
     for (const auto& family : *families) initial += static_cast<double>(family->bytes());
-  if (options.inverse == InverseKind::dense) initial *= kOfInverse;
+  for (const auto& family : model.initial_g) initial_g += static_cast<double>(family->bytes());
   const double all_rows = static_cast<double>(model.nodes()) / rows;
-  return {(lags + initial) * all_rows, seconds * all_rows};
+  StoredEstimate out{(lags + initial) * all_rows, (lags + initial) * all_rows, seconds * all_rows};
+  if (options.inverse == InverseKind::dense) {
+    out.bytes = (lags + kOfInverse * initial) * all_rows;
+    out.assembly_bytes = (lags + initial_g) * all_rows;
+  }
+  return out;
 }
 
 }  // namespace bem

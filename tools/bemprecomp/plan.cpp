@@ -67,12 +67,13 @@ void plan_storage(const Options& o, Plan& plan) {
 }
 
 void estimate_bytes(bool sample, Plan& plan) {
+  StoredEstimate stored;
   if (plan.options.codec.codec != Codec::lowrank || sample) {
-    const StoredEstimate stored = estimate_stored(plan.geometry, plan.options);
+    stored = estimate_stored(plan.geometry, plan.options);
     plan.stored = stored.bytes;
     plan.compression_seconds = stored.assembly_seconds;
   }
-  plan.peak = peak_bytes(plan.geometry, plan.options, plan.stored);
+  plan.peak = peak_bytes(plan.geometry, plan.options, stored);
   plan.archive_bytes = archive_bytes(plan.geometry, plan.options, plan.stored);
 }
 
