@@ -79,7 +79,9 @@ inline std::vector<std::string> initial_paths(const std::string& matrix, std::si
 /// Of Loads::some: the nodes, [k].
 inline constexpr char kLoadedNodesPath[] = "/body/loaded_nodes";
 
-inline constexpr char kBodyForcePath[] = "/matrices/body_force";
+/// Columns of body forces: by the accelerations of the frame, and by its rotation.
+inline constexpr char kBodyForce[] = "body_force";
+inline constexpr char kCentrifugal[] = "centrifugal";
 
 /// Accelerations that balance static right-hand sides and nodal tractions, [6, 3N] each.
 inline constexpr char kBalancePath[] = "/matrices/balance/load";

@@ -165,9 +165,14 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
   model.window = window_;
   model.precision = precision_;
   model.report = report_;
-  BodyForce force = load_body_force();
+  BodyForce force = load_body_force(kBodyForce);
   model.body_force = std::move(force.lags);
   model.initial_body_force = std::move(force.initial);
+  if (has_centrifugal()) {
+    force = load_body_force(kCentrifugal);
+    model.centrifugal = std::move(force.lags);
+    model.initial_centrifugal = std::move(force.initial);
+  }
   model.codec = codec_;
   model.loads = loads_;
   model.loaded_nodes = loaded_nodes_;
@@ -210,11 +215,14 @@ Eigen::MatrixXd Archive::load_balance(const std::string& path) const {
 
 void Archive::check_matrices(const Progress& progress) const {
   if (kind_ == ModelKind::rigid) return;
-  const BodyForce force = load_body_force();
   const auto finite = [](const auto& m) { return m.allFinite(); };
-  if (!std::all_of(force.lags.begin(), force.lags.end(), finite) ||
-      !std::all_of(force.initial.begin(), force.initial.end(), finite))
-    refuse(std::string(kBodyForcePath) + " has a number that is not finite");
+  for (const char* name : {kBodyForce, kCentrifugal}) {
+    if (name == kCentrifugal && !has_centrifugal()) continue;
+    const BodyForce force = load_body_force(name);
+    if (!std::all_of(force.lags.begin(), force.lags.end(), finite) ||
+        !std::all_of(force.initial.begin(), force.initial.end(), finite))
+      refuse(lags_path(name) + " has a number that is not finite");
+  }
   for (const char* path : {kBalancePath, kTractionBalancePath})
     if (!load_balance(path).allFinite())
       refuse(std::string(path) + " has a number that is not finite");

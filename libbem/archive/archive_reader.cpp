@@ -261,11 +261,15 @@ std::vector<std::string> Archive::matrix_paths() const {
   return paths;
 }
 
-BodyForce Archive::load_body_force() const {
+bool Archive::has_centrifugal() const {
+  return file_.exists(initial_path(kCentrifugal, 0));
+}
+
+BodyForce Archive::load_body_force(const char* name) const {
   BodyForce force;
   const std::size_t n = unknowns(), components = lag_components();
   const auto lags = static_cast<std::size_t>(discretisation_.history_length);
-  const std::string path = std::string(kBodyForcePath) + "/lags";
+  const std::string path = lags_path(name) + "/lags";
   if (lags > 0 && file_.dims(path) != Hdf5Dims{lags, components, n, 6})
     refuse(path + " has wrong extents");
   RowMajor columns(static_cast<Eigen::Index>(n), 6);
@@ -274,7 +278,7 @@ BodyForce Archive::load_body_force() const {
     force.lags.emplace_back(columns);
   }
   for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
-    const std::string group = initial_path("body_force", i);
+    const std::string group = initial_path(name, i);
     const auto part = [&](const char* name) {
       const std::vector<double> data = file_.read<double>(group + name, {n, 6});
       return RowMajor(Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(n), 6));

@@ -57,7 +57,10 @@ class Archive {
   TractionData load_tractions(const std::vector<int>& nodes,
                               const Progress& progress = nullptr) const;
 
-  BodyForce load_body_force() const;
+  /// Columns of body forces, `name`: kBodyForce or kCentrifugal.
+  BodyForce load_body_force(const char* name) const;
+  /// Whether it has the columns of the centrifugal force; archives of older programs do not.
+  bool has_centrifugal() const;
 
   /// One of the balance matrices at kBalancePath or kTractionBalancePath, 6 x unknowns; without
   /// columns if it is that of tractions and no loads may act.

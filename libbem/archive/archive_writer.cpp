@@ -54,8 +54,10 @@ double matrix_bytes(const BodyModel& model) {
   double bytes = 0;
   for (const MatrixFamily* family : large_families(model))
     bytes += static_cast<double>(family->bytes());
-  for (const auto& m : model.body_force) bytes += 8.0 * static_cast<double>(m.size());
-  for (const auto& m : model.initial_body_force) bytes += 16.0 * static_cast<double>(m.size());
+  for (const auto* lags : {&model.body_force, &model.centrifugal})
+    for (const auto& m : *lags) bytes += 8.0 * static_cast<double>(m.size());
+  for (const auto* initial : {&model.initial_body_force, &model.initial_centrifugal})
+    for (const auto& m : *initial) bytes += 16.0 * static_cast<double>(m.size());
   bytes += 8.0 * static_cast<double>(model.balance.size() + model.traction_balance.size());
   return bytes;
 }
@@ -220,28 +222,32 @@ class MatrixWriter {
   const Progress& progress_;
 };
 
-void write_body_force(Hdf5File& file, const BodyModel& model) {
+void write_body_force(Hdf5File& file, const BodyModel& model, const char* name,
+                      const std::vector<Eigen::MatrixXd>& by_lag,
+                      const std::vector<Eigen::MatrixXcd>& initial) {
   const std::size_t unknowns = 3 * model.nodes();
   const auto lags = static_cast<std::size_t>(model.discretisation.history_length);
   const auto components = static_cast<std::size_t>(model.components());
-  const std::string path = std::string(kBodyForcePath) + "/lags";
+  const std::string path = lags_path(name) + "/lags";
   if (lags > 0) file.create_dataset(path, Hdf5Type::float64, {lags, components, unknowns, 6});
-  for (std::size_t i = 0; i < model.body_force.size(); ++i) {
-    const RowMajor columns = model.body_force[i];
+  for (std::size_t i = 0; i < by_lag.size(); ++i) {
+    const RowMajor columns = by_lag[i];
     file.write_block(path, {i / components, i % components, 0, 0}, {1, 1, unknowns, 6},
                      columns.data());
   }
-  for (std::size_t i = 0; i < model.initial_body_force.size(); ++i) {
-    const std::string group = initial_path("body_force", i);
-    write_small(file, group + "/real", model.initial_body_force[i].real());
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    const std::string group = initial_path(name, i);
+    write_small(file, group + "/real", initial[i].real());
     if (model.discretisation.scheme.initial_components()[i].paired)
-      write_small(file, group + "/imaginary", model.initial_body_force[i].imag());
+      write_small(file, group + "/imaginary", initial[i].imag());
   }
 }
 
 void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& progress) {
   MatrixWriter writer(file, matrix_bytes(model), progress);
-  write_body_force(file, model);
+  write_body_force(file, model, kBodyForce, model.body_force, model.initial_body_force);
+  if (model.has_centrifugal())
+    write_body_force(file, model, kCentrifugal, model.centrifugal, model.initial_centrifugal);
   const bool iterative = model.is_iterative(), tractions = model.loads != Loads::none;
   write_small(file, kBalancePath, model.balance);
   if (tractions) write_small(file, kTractionBalancePath, model.traction_balance);

@@ -45,6 +45,7 @@ void assemble_row(const Setup& setup, const VertexFans& fans, int i, LaplaceMatr
   const RadialValues<double> rest = static_radial_values(setup.kappa);
   PointBatch scratch;
   Mat3c d = Mat3c::Zero(), l = Mat3c::Zero();
+  Eigen::Matrix<Complex, 3, 6> m = Eigen::Matrix<Complex, 3, 6>::Zero();
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     Mat3c h[3], g[3];
     for (int a = 0; a < 3; ++a) h[a] = g[a] = Mat3c::Zero();
@@ -54,6 +55,7 @@ void assemble_row(const Setup& setup, const VertexFans& fans, int i, LaplaceMatr
           const double weight = w[0] + w[1] + w[2];
           d += weight * translation_kernel(pair, v, setup.c2);
           l += weight * rotation_kernel(pair, v, setup.c2);
+          m += weight * strain_kernel(pair, v, setup.c2);
           const Mat3c u = displacement_kernel(pair, v, setup.mu);
           if (singular)
             for (int f : {kRadialP, kRadialQ, kRadialS}) v[f] -= rest[f];
@@ -71,6 +73,9 @@ void assemble_row(const Setup& setup, const VertexFans& fans, int i, LaplaceMatr
   }
   out.d.block<3, 3>(3 * i, 0) = d;
   out.q.block<3, 3>(3 * i, 0) = l + d * cross_matrix(mesh.vertices[i]).transpose().cast<Complex>();
+  for (int e = 0; e < 6; ++e)
+    m.col(e) -= d * (symmetric_matrix(Vector6::Unit(e)) * mesh.vertices[i]).cast<Complex>();
+  out.c.block<3, 6>(3 * i, 0) = m;
   for (const auto& [j, block] : fans.static_blocks(i, setup.kappa))
     out.h.block<3, 3>(3 * i, 3 * j) += block.cast<Complex>();
 }
@@ -85,6 +90,7 @@ LaplaceMatrices laplace_matrices(const TriangleMesh& mesh, const Material& mater
   LaplaceMatrices out;
   out.h = out.g = Eigen::MatrixXcd::Zero(n, n);
   out.d = out.q = Eigen::MatrixXcd::Zero(n, 3);
+  out.c = Eigen::MatrixXcd::Zero(n, 6);
   parallel_for(mesh.vertices.size(),
                [&](std::size_t i) { assemble_row(setup, fans, static_cast<int>(i), out); });
   return out;

@@ -6,10 +6,12 @@
 namespace bem {
 
 /// Collocation matrices of the boundary integral equation (M1) at one Laplace parameter s, for N
-/// vertices with the origin at the centre of mass: H(s) u = G(s) p + D(s) (a - g') + Q(s) alpha.
+/// vertices with the origin at the centre of mass: H(s) u = G(s) p + D(s) (a - g') + Q(s) alpha +
+/// C(s) b.
 struct LaplaceMatrices {
   Eigen::MatrixXcd h, g;  ///< 3N x 3N
   Eigen::MatrixXcd d, q;  ///< 3N x 3
+  Eigen::MatrixXcd c;     ///< 3N x 6: the body force rho B y by the entries b of B (M7)
 };
 
 /// Reference path: scalar complex double kernels, one point at a time. O(N^2) and slow; the fast

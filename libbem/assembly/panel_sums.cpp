@@ -138,8 +138,10 @@ HWY_INLINE void Accumulate(D d, const PanelScratch<T>& s, int function, int size
       return rows(Nine(), kCoefF, kSumF);
     case kRadialM1:
       return rows(One(), kCoefM1, kSumM1);
-    default:
+    case kRadialM0:
       return rows(One(), kCoefM0, kSumM0);
+    default:
+      return rows(One(), kCoefM0, kSumC0);
   }
 }
 
@@ -229,6 +231,20 @@ void Add(const T* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
           rotation = hn::MulAdd(sum(kSumFr + kPair[i][k]), cross[k][j], rotation);
         add(target.l, 3 * i + j, rotation);
       }
+    // m(B) = -Fr B n - tr(B) (C_0 - M_0 + tr Fr) n + M_0 B n, column by column of B
+    const V trace = hn::Add(hn::Add(sum(kSumFr), sum(kSumFr + 3)), sum(kSumFr + 5));
+    const V dilation = hn::Add(hn::Sub(sum(kSumC0), m0), trace);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        for (int k = j; k < 3; ++k) {
+          const auto part = [&](int a, int b) {  // (M_0 - Fr)_ia n_b
+            const V f = hn::Neg(sum(kSumFr + kPair[i][a]));
+            return hn::Mul(i == a ? hn::Add(f, m0) : f, normal[b]);
+          };
+          const V value = j == k ? hn::Sub(part(j, j), hn::Mul(dilation, normal[i]))
+                                 : hn::Add(part(j, k), part(k, j));
+          add(target.m, 6 * i + kPair[j][k], value);
+        }
   }
 }
 
@@ -330,6 +346,7 @@ void accumulate_panel_reference(const LaneTable<double>& table, const KernelScal
         add(kSumFr + e, body * r * h[kPairs[e][0]] * h[kPairs[e][1]] * f(kRadialF));
       add(kSumM1, -body * hn * f(kRadialM1));
       add(kSumM0, body * r * f(kRadialM0));
+      add(kSumC0, body * r * f(kRadialC0));
     }
   }
 }

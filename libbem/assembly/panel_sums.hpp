@@ -19,7 +19,8 @@ enum PanelSum : int {
   kSumFr = kSumF + 3,   ///< r F h_i h_j                              [6]
   kSumM1 = kSumFr + 6,  ///< -M_1 (h.n)
   kSumM0 = kSumM1 + 1,  ///< r M_0
-  kPanelSums = kSumM0 + 1
+  kSumC0 = kSumM0 + 1,  ///< r kappa M_0(z1)
+  kPanelSums = kSumC0 + 1
 };
 
 /// Prefactors of the kernels: 1/(4 pi mu), 1/(4 pi), 1/(4 pi c2^2), and lam per distance.
@@ -54,13 +55,15 @@ void accumulate_panel_reference(const LaneTable<double>& table, const KernelScal
                                 const PointBatch& batch, const Vec3& normal, double* sums);
 
 /// Row blocks that a panel adds to: 3x3 blocks [entry][padded lane] of the three vertices of the
-/// triangle (h: 9 entries, g: 6 entries xx xy xz yy yz zz) and of the body-force columns d and l.
+/// triangle (h: 9 entries, g: 6 entries xx xy xz yy yz zz) and of the body-force columns d, l (9
+/// entries) and m (18).
 template <class T>
 struct PanelTarget {
   T* h[3];
   T* g[3];
   T* d;
   T* l;
+  T* m;
 };
 
 /// Multiplies the normal in and adds the panel's 3x3 blocks to the row.

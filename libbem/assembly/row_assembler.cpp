@@ -2,6 +2,7 @@
 
 #include "assembly/translation_identity.hpp"
 #include "base/error.hpp"
+#include "kernels/tensors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +11,15 @@
 namespace bem {
 
 double largest_symbol(const Scheme& scheme) {
-  double largest = 0;
   constexpr int kSamples = 64;
+  constexpr double kWeaklyDamped = 0.31;  // real by imaginary part: exp(-z r/(c2 dt))
+  double largest = 0;
   for (int i = 0; i <= kSamples; ++i) {
     const StageMatrixC delta = scheme.delta(std::polar(1.0, kPi * i / kSamples));
-    double smallest = std::abs(delta.eigenvalues()[0]);
-    for (const Complex& value : delta.eigenvalues()) smallest = std::min(smallest, std::abs(value));
-    largest = std::max(largest, smallest);
+    const StageVectorC values = delta.eigenvalues();
+    largest = std::max(largest, values.cwiseAbs().minCoeff());
+    for (const Complex& z : values)
+      if (z.real() <= kWeaklyDamped * std::abs(z.imag())) largest = std::max(largest, std::abs(z));
   }
   return largest;
 }
@@ -78,6 +81,29 @@ void RowAssembler::sum_panel(int vertex, int triangle, Workspace& work,
           static_cast<float>(work.sums[sum * table_.lanes().padded_lanes + lane]);
 }
 
+namespace {
+
+/// q* = l* + d* [x - xbar]^T,  m*(B) - d* B (x - xbar).
+template <class T>
+void add_arm(const Vec3& x, BlockRow<T>& row) {
+  const std::size_t stride = row.padded_lanes;
+  Eigen::Matrix<double, 3, 6> strained;
+  for (int e = 0; e < 6; ++e) strained.col(e) = symmetric_matrix(Vector6::Unit(e)) * x;
+  const auto add = [&](AlignedVector<double>& out, const auto& factors) {
+    const auto columns = static_cast<int>(factors.cols());
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < columns; ++j)
+        for (int k = 0; k < 3; ++k)
+          for (std::size_t lane = 0; lane < stride; ++lane)
+            out[(columns * i + j) * stride + lane] +=
+                row.d[(3 * i + k) * stride + lane] * factors(k, j);
+  };
+  add(row.q, Mat3(cross_matrix(x).transpose()));
+  add(row.c, Eigen::Matrix<double, 3, 6>(-strained));
+}
+
+}  // namespace
+
 template <class T>
 double RowAssembler::assemble_row(int vertex, bool fix_translation, Workspace& work,
                                   BlockRow<T>& row, const LaneTable<T>& lanes) const {
@@ -88,6 +114,7 @@ double RowAssembler::assemble_row(int vertex, bool fix_translation, Workspace& w
   row.g.assign(n * 6 * stride, T(0));
   row.d.assign(9 * stride, 0.0);
   row.q.assign(9 * stride, 0.0);
+  row.c.assign(18 * stride, 0.0);
   auto& sums = [&work]() -> auto& {
     if constexpr (std::is_same_v<T, float>)
       return work.far_sums;
@@ -95,9 +122,9 @@ double RowAssembler::assemble_row(int vertex, bool fix_translation, Workspace& w
       return work.sums;
   }
   ();
-  // d and l sum thousands of panels: in double precision, a few panels at a time
+  // d, l and m sum thousands of panels: in double precision, a few panels at a time
   constexpr std::size_t kPanelsAtATime = 16;
-  AlignedVector<T> body(18 * stride, T(0));
+  AlignedVector<T> body(36 * stride, T(0));
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     sum_panel(vertex, static_cast<int>(t), work, sums);
     PanelTarget<T> target;
@@ -108,23 +135,19 @@ double RowAssembler::assemble_row(int vertex, bool fix_translation, Workspace& w
     }
     target.d = body.data();
     target.l = body.data() + 9 * stride;
+    target.m = body.data() + 18 * stride;
     add_panel(sums.data(), quadrature_.normal(static_cast<int>(t)), lanes.padded_lanes, target);
     if ((t + 1) % kPanelsAtATime == 0 || t + 1 == mesh_.triangles.size()) {
       for (std::size_t e = 0; e < 9 * stride; ++e) {
         row.d[e] += body[e];
         row.q[e] += body[9 * stride + e];
       }
+      for (std::size_t e = 0; e < 18 * stride; ++e) row.c[e] += body[18 * stride + e];
       std::fill(body.begin(), body.end(), T(0));
     }
   }
 
-  // q* = l* + d* [x - xbar]^T
-  const Mat3 arm = cross_matrix(mesh_.vertices[vertex]).transpose();
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      for (int k = 0; k < 3; ++k)
-        for (std::size_t lane = 0; lane < stride; ++lane)
-          row.q[(3 * i + j) * stride + lane] += row.d[(3 * i + k) * stride + lane] * arm(k, j);
+  add_arm(mesh_.vertices[vertex], row);
 
   for (const auto& [j, block] : fans_.static_blocks(vertex, table_.kappa()))
     for (int e = 0; e < 9; ++e)

@@ -12,7 +12,7 @@
 namespace bem {
 namespace {
 
-constexpr std::string_view kMark = "BEM state 0001\n\n";
+constexpr std::string_view kMark = "BEM state 0002\n\n";
 static_assert(kMark.size() == 16);
 
 void free_digest(XXH3_state_s* state) {

@@ -11,6 +11,7 @@ namespace bem {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Complex = std::complex<double>;
 using Triangle = std::array<int, 3>;  ///< vertex indices, counter-clockwise seen from outside
 

@@ -78,7 +78,7 @@ Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec
       anchor_levers_(hat_centroids(shared.model->geometry.nodes, joint_nodes_)) {
   if (shared_.system)
     elastic_.emplace(*shared_.system, shared_.tractions.get(), node_numbers(joint_nodes_),
-                     std::move(corners),
+                     std::move(corners), spec.has_centrifugal() ? shared_.centrifugal : nullptr,
                      spec.correction == Correction::least_squares ? shared_.correction : nullptr);
   for (const TractionSpec& t : spec_.tractions) {
     PrescribedLoad p{{t, shared_.model->geometry, frame_.rotation()}, {}, {}};
@@ -150,6 +150,7 @@ void Body::begin_step(SpectralState free, bool held, const std::optional<Holder>
   frame_stages_.translation.assign(stage_count_, now.translation[0]);
   frame_stages_.rotation.assign(stage_count_, now.rotation[0]);
   frame_stages_.turn.assign(stage_count_, now.turn[0]);
+  frame_stages_.angular_momentum.assign(stage_count_, now.angular_momentum[0]);
   end_known_ = false;
 }
 
@@ -241,12 +242,35 @@ Vec3 Body::contact_force() const {
   return sum;
 }
 
+/// The centrifugal force by the rotation that is known at the stages. Returns how much it has
+/// changed, as a strain.
+double Body::set_centrifugal() {
+  constexpr double kNegligible = 1e-14;
+  if (!elastic_ || !elastic_->has_centrifugal()) return 0;
+  const Material& m = model().discretisation.material;
+  const double extent = model().geometry.extent;
+  const double strain = m.density * extent * extent / m.shear_modulus;
+  Eigen::MatrixXd entries(6, stage_count_);
+  for (int a = 0; a < stage_count_; ++a) {
+    const Vec3 momentum = frame_stages_.rotation[a].transpose() * frame_stages_.angular_momentum[a];
+    const Vec3 w = frame_.inverse_inertia() * momentum;
+    entries.col(a) << w.squaredNorm() - w[0] * w[0], -w[0] * w[1], -w[0] * w[2],
+        w.squaredNorm() - w[1] * w[1], -w[1] * w[2], w.squaredNorm() - w[2] * w[2];
+  }
+  if (!(strain * entries.cwiseAbs().maxCoeff() > kNegligible)) entries.setZero();
+  const double change = strain * (entries - elastic_->centrifugal_stages()).cwiseAbs().maxCoeff();
+  elastic_->set_centrifugal(entries);
+  return change;
+}
+
 double Body::update() {
   end_known_ = false;
   for (PrescribedLoad& p : loads_)
     for (int a = 0; a < stage_count_; ++a)
       p.stages.col(a) = p.load.values(stage_time(a), frame_stages_.rotation[a]);
   const bool jointed = !joint_nodes_.empty();
+  double turn = 0;
+  if (jointed) turn = set_centrifugal();
   if (elastic_ && jointed) node_displacements_ = elastic_->displacements(loads_, nodal_forces());
   force_rotation_ = frame_stages_.rotation;
   if (drag_.rate > 0) set_lean(frame_stages_.turn);
@@ -258,9 +282,9 @@ double Body::update() {
       force_rotation_ = frame_stages_.rotation;
       frame_stages_ = frame_.stages(frame_loads(), drag_);
     }
+    set_centrifugal();
     node_displacements_ = elastic_->displacements(loads_, nodal_forces());
   }
-  double turn = 0;
   for (int a = 0; a < stage_count_; ++a)
     turn = std::max(turn, (frame_stages_.rotation[a] - force_rotation_[a]).norm());
   return turn;

@@ -16,6 +16,7 @@ struct SharedModel {
   std::shared_ptr<const ElasticSystem> system;
   std::shared_ptr<const RowAssembler> assembler;    ///< for prescribed loads and those of corners
   std::shared_ptr<const NodalTractions> tractions;  ///< of the nodes that constraints may act on
+  std::shared_ptr<const InputColumns> centrifugal;  ///< if rotation deforms some body
   std::shared_ptr<const LeastSquaresCorrection> correction;  ///< if some body is corrected so
 };
 
@@ -130,6 +131,7 @@ class Body {
   void check_state() const;
   void check_loadable(const std::vector<int>& nodes) const;
   double stage_time(int stage) const;
+  double set_centrifugal();
   FrameLoads frame_loads() const;
   double contact_gain() const;
   Vec3 contact_force() const;

@@ -24,19 +24,30 @@ double time_step_of_offset(const BodyModel& model) {
 
 ElasticPart::ElasticPart(const ElasticSystem& system, const NodalTractions* tractions,
                          std::vector<int> joint_nodes, std::shared_ptr<const CornerLoads> corners,
+                         std::shared_ptr<const InputColumns> centrifugal,
                          std::shared_ptr<const LeastSquaresCorrection> correction)
     : system_(system),
       tractions_(tractions),
       areas_(vertex_areas(system.model().geometry.nodes)),
       joint_nodes_(std::move(joint_nodes)),
       corners_(std::move(corners)),
+      centrifugal_(std::move(centrifugal)),
       correction_(std::move(correction)),
       offset_(system.scheme(), time_step_of_offset(system.model())) {
   displacement_history_ = system.make_displacement_history();
   acceleration_history_ = system.make_history(6);
   if (corners_) corner_history_ = system.make_history(corners_->inputs());
+  if (centrifugal_) centrifugal_history_ = system.make_history(6);
+  centrifugal_stages_ = Eigen::MatrixXd::Zero(6, system.scheme().stages());
   traction_history_ = NodalHistory(system.scheme(), system.model().discretisation.history_length,
                                    system.model().window);
+}
+
+/// f(columns, stage values) of prescribed loads and the centrifugal force.
+template <class F>
+void ElasticPart::for_each_input(const std::vector<PrescribedLoad>& loads, const F& f) const {
+  for (const PrescribedLoad& p : loads) f(p.load.columns(), p.stages);
+  if (centrifugal_) f(*centrifugal_, centrifugal_stages_);
 }
 
 Eigen::MatrixXd ElasticPart::history_sums(const std::vector<PrescribedLoad>& loads) const {
@@ -48,6 +59,7 @@ Eigen::MatrixXd ElasticPart::history_sums(const std::vector<PrescribedLoad>& loa
     system_.add_input_history(p.load.columns(), p.history, sums);
   if (tractions_) tractions_->add_history(traction_history_, sums);
   if (corners_) system_.add_input_history(corners_->columns, corner_history_, sums);
+  if (centrifugal_) system_.add_input_history(*centrifugal_, centrifugal_history_, sums);
   return sums;
 }
 
@@ -199,10 +211,11 @@ ElasticPart::Displacements ElasticPart::displacements(const std::vector<Prescrib
   // without the forces: free motion and prescribed loads
   SpectralState state;
   state.acceleration = free_.acceleration;
-  for (std::size_t c = 0; c < initial.size(); ++c)
-    for (const PrescribedLoad& p : loads)
+  for_each_input(loads, [&](const InputColumns& columns, const Eigen::MatrixXd& values) {
+    for (std::size_t c = 0; c < initial.size(); ++c)
       state.acceleration[c] +=
-          p.load.columns().acceleration[c] * (p.stages.cast<Complex>() * initial[c].right);
+          columns.acceleration[c] * (values.cast<Complex>() * initial[c].right);
+  });
   const Eigen::MatrixXd offsets = offset_.stages(differences(state, loads, {}, {}));
   Vector6 lifted = Vector6::Zero();
   if (correction_) lifted = state.acceleration[0].real() + predicted_acceleration(loads, {{}, {}});
@@ -212,9 +225,10 @@ ElasticPart::Displacements ElasticPart::displacements(const std::vector<Prescrib
                                     : Eigen::VectorXd(rigid_columns(x, nodes) * offsets.col(stage));
     for (std::size_t c = 0; c < initial.size(); ++c) {
       Eigen::VectorXcd v = free_.displacement[c](rows);
-      for (const PrescribedLoad& p : loads)
-        v += p.load.columns().displacement[c](rows, Eigen::all) *
-             (p.stages.cast<Complex>() * initial[c].right);
+      for_each_input(loads, [&](const InputColumns& columns, const Eigen::MatrixXd& values) {
+        v +=
+            columns.displacement[c](rows, Eigen::all) * (values.cast<Complex>() * initial[c].right);
+      });
       u += initial[c].multiplicity() * (initial[c].left[stage] * v).real();
     }
     return u;
@@ -278,7 +292,9 @@ Eigen::MatrixXd ElasticPart::differences(const SpectralState& state,
                                          const NodalLoad& nodal,
                                          const Eigen::MatrixXd& corner) const {
   Eigen::MatrixXd e = system_.acceleration_stages(state);
-  for (const PrescribedLoad& p : loads) system_.subtract_balance(p.load.columns(), p.stages, e);
+  for_each_input(loads, [&](const InputColumns& columns, const Eigen::MatrixXd& values) {
+    system_.subtract_balance(columns, values, e);
+  });
   if (tractions_) tractions_->subtract_balance(nodal, e);
   if (corner.size() > 0) system_.subtract_balance(corners_->columns, corner, e);
   return e;
@@ -287,7 +303,9 @@ Eigen::MatrixXd ElasticPart::differences(const SpectralState& state,
 Eigen::VectorXd ElasticPart::end_displacement(const std::vector<PrescribedLoad>& loads,
                                               const NodalForces& forces) {
   SpectralState state = free_;
-  for (const PrescribedLoad& p : loads) system_.add_inputs(p.load.columns(), p.stages, state);
+  for_each_input(loads, [&](const InputColumns& columns, const Eigen::MatrixXd& values) {
+    system_.add_inputs(columns, values, state);
+  });
   end_.load = nodal_load(forces);
   if (tractions_) tractions_->add(end_.load, state);
   end_.corner = corner_load(forces);
@@ -331,6 +349,7 @@ std::optional<ElasticPart::Corrected> ElasticPart::end_step() {
   acceleration_history_.push(end_.accelerations);
   if (tractions_) traction_history_.push(end_.load);
   if (corners_) corner_history_.push(end_.corner);
+  if (centrifugal_) centrifugal_history_.push(centrifugal_stages_);
   offset_.advance(end_.differences);
   return corrected;
 }

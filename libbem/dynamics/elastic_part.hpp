@@ -32,9 +32,11 @@ struct NodalForces {
 /// displacements are of interest at its end only.
 class ElasticPart {
  public:
-  /// `tractions` may be null if nothing ever touches the body, `corners` if no joint node has any.
+  /// `tractions` may be null if nothing ever touches the body, `corners` if no joint node has any,
+  /// `centrifugal` (six inputs, as set_centrifugal()) if its rotation does not deform it.
   ElasticPart(const ElasticSystem& system, const NodalTractions* tractions,
               std::vector<int> joint_nodes, std::shared_ptr<const CornerLoads> corners,
+              std::shared_ptr<const InputColumns> centrifugal,
               std::shared_ptr<const LeastSquaresCorrection> correction);
 
   const LagHistory& displacement_history() const { return displacement_history_; }
@@ -46,6 +48,11 @@ class ElasticPart {
   /// frame offset [1/s].
   void begin_step(SpectralState free, double leak);
   void set_contact_nodes(const std::vector<int>& nodes);
+
+  bool has_centrifugal() const { return centrifugal_ != nullptr; }
+  /// The body force rho B y at the stages by the entries xx xy xz yy yz zz of B (6 x s) [1/s^2].
+  void set_centrifugal(const Eigen::MatrixXd& stages) { centrifugal_stages_ = stages; }
+  const Eigen::MatrixXd& centrifugal_stages() const { return centrifugal_stages_; }
 
   /// Displacements [m] of the joint nodes at the stages (3 per node x s), and of the contact nodes
   /// at the end of the step.
@@ -84,12 +91,14 @@ class ElasticPart {
 
   /// Between two steps; compliances come again by themselves.
   void visit_state(StateArchive& state) {
-    state(offset_, displacement_history_, acceleration_history_, corner_history_, traction_history_,
-          solution_memory_);
+    state(offset_, displacement_history_, acceleration_history_, corner_history_,
+          centrifugal_history_, traction_history_, solution_memory_);
   }
 
  private:
   Corrected correct() const;
+  template <class F>
+  void for_each_input(const std::vector<PrescribedLoad>& loads, const F& f) const;
   NodalLoad nodal_load(const NodalForces& forces) const;
   Eigen::MatrixXd corner_load(const NodalForces& forces) const;
   Eigen::MatrixXd differences(const SpectralState& state, const std::vector<PrescribedLoad>& loads,
@@ -116,10 +125,12 @@ class ElasticPart {
   std::vector<double> areas_;  ///< int phi_i, all nodes
   std::vector<int> joint_nodes_, contact_nodes_;
   std::shared_ptr<const CornerLoads> corners_;
+  std::shared_ptr<const InputColumns> centrifugal_;
   std::shared_ptr<const LeastSquaresCorrection> correction_;  ///< null: projection
   FrameOffset offset_;
   double leak_ = 0;
-  LagHistory displacement_history_, acceleration_history_, corner_history_;
+  LagHistory displacement_history_, acceleration_history_, corner_history_, centrifugal_history_;
+  Eigen::MatrixXd centrifugal_stages_;
   NodalHistory traction_history_;
   SolutionMemory solution_memory_;
   SpectralState free_;

@@ -5,8 +5,6 @@
 
 namespace bem {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
 /// Rigid offset of the rigid-free displacements from the frame that carries the body's momentum.
 ///
 /// The frame moves with the centre of mass, but displacements are kept free of rigid motion in the

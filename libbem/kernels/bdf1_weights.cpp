@@ -61,6 +61,7 @@ std::vector<RadialValues<double>> bdf1_radial_weights(double lam, double kappa, 
     w[kRadialF] = s.h[n] - k * c.h[n];
     w[kRadialM1] = s.h[n];
     w[kRadialM0] = s.m0[n];
+    w[kRadialC0] = k * c.m0[n];
   }
   return weights;
 }

@@ -16,6 +16,7 @@ RadialValues<double> static_radial_values(double kappa) {
   v[kRadialF] = 0.5 * (1 - kappa);
   v[kRadialM1] = 0.5;
   v[kRadialM0] = 1.0;
+  v[kRadialC0] = kappa;
   return v;
 }
 
@@ -36,6 +37,7 @@ RadialValues<Complex> radial_values(Complex z2, double kappa) {
   v[kRadialF] = s.m1 - k * c.m1;
   v[kRadialM1] = s.m1;
   v[kRadialM0] = s.m0;
+  v[kRadialC0] = k * c.m0;
   return v;
 }
 

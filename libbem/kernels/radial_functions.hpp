@@ -15,7 +15,8 @@ enum RadialFunction : int {
   kRadialS,   ///< S   of the traction kernel p*       (M4)
   kRadialF,   ///< F   of the body-force kernels d*, l* (M5), (M6)
   kRadialM1,  ///< M_1(z2) of d*                       (M5)
-  kRadialM0,  ///< M_0(z2) of l*                       (M6)
+  kRadialM0,  ///< M_0(z2) of l* and m*                (M6), (M7)
+  kRadialC0,  ///< kappa M_0(z1) of m*                 (M7)
   kRadialCount
 };
 

@@ -44,7 +44,7 @@ void RadialWeights::evaluate(double lam, double* out) const {
     const Complex m = 1.0 + damping_.time * d;
     const RadialValues<Complex> v = radial_values(d * lam / std::sqrt(m), kappa_);
     std::copy(v.begin(), v.end(), value);
-    for (int f : {kRadialA, kRadialB, kRadialF, kRadialM1, kRadialM0}) value[f] /= m;
+    for (int f : {kRadialA, kRadialB, kRadialF, kRadialM1, kRadialM0, kRadialC0}) value[f] /= m;
   };
   contour_.weights(kRadialCount, functions, out, true);
 }

@@ -75,8 +75,8 @@ class RadialTable {
 /// Direct evaluation of what RadialTable tabulates, out[function*layout.count() + lane]: closed
 /// form for BDF1 without damping, contour formula for everything else. The moduli of a damped
 /// material are m = 1 + s time times those of an elastic one, so that its kernels are those
-/// of the argument s r/(c2 sqrt(m)), and those that have a modulus in their scale (u*, d*, l*) are
-/// divided by m.
+/// of the argument s r/(c2 sqrt(m)), and those that have a modulus in their scale (u*, d*, l*, m*)
+/// are divided by m.
 class RadialWeights {
  public:
   RadialWeights(const Scheme& scheme, double kappa, int last_lag, const Damping& damping = {});

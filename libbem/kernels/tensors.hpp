@@ -55,4 +55,27 @@ Eigen::Matrix<Scalar, 3, 3> rotation_kernel(const PairGeometry& g, const RadialV
          (scale * f[kRadialM0]) * cross_matrix(g.n);
 }
 
+/// Symmetric 3x3 matrices by six numbers: xx xy xz yy yz zz, off-diagonal ones for both entries.
+inline Mat3 symmetric_matrix(const Vector6& b) {
+  Mat3 m;
+  m << b[0], b[1], b[2], b[1], b[3], b[4], b[2], b[4], b[5];
+  return m;
+}
+
+/// Kernel m* of the body force rho B y, B symmetric [s^2/m] (M7); the full kernel is
+/// m*(B) - d* B (x - xbar). Column e: B = symmetric_matrix(unit vector e).
+template <class Scalar>
+Eigen::Matrix<Scalar, 3, 6> strain_kernel(const PairGeometry& g, const RadialValues<Scalar>& f,
+                                          double c2) {
+  const double scale = g.r / (4 * kPi * c2 * c2);
+  Eigen::Matrix<Scalar, 3, 6> out;
+  for (int e = 0; e < 6; ++e) {
+    const Mat3 b = symmetric_matrix(Vector6::Unit(e));
+    const Scalar dilation = f[kRadialC0] - f[kRadialM0] + f[kRadialF];  // kappa W(z1) - W(z2)
+    out.col(e) = -(scale * g.n.dot(b * g.h) * f[kRadialF]) * g.h -
+                 (scale * b.trace() * dilation) * g.n + (scale * f[kRadialM0]) * (b * g.n);
+  }
+  return out;
+}
+
 }  // namespace bem

@@ -57,6 +57,10 @@ struct BodyModel {
   std::unique_ptr<MatrixFamily> h, g;
   std::vector<Eigen::MatrixXd> body_force;           ///< [D_k Q_k], 3N x 6, lags >= 1
   std::vector<Eigen::MatrixXcd> initial_body_force;  ///< [D_0 Q_0] by initial component, 3N x 6
+  /// The same for body forces rho B y with a symmetric matrix B, by its entries xx xy xz yy yz zz
+  /// (M7): the centrifugal force. Empty in archives that older programs have made.
+  std::vector<Eigen::MatrixXd> centrifugal;
+  std::vector<Eigen::MatrixXcd> initial_centrifugal;
   /// Either H_0^{-1} and H_0^{-1} G_0, or H_0 and G_0, which are solved with in every step; the
   /// others are empty. Of a quasi-static model H_0 stands for H(0) - [D(0) Q(0)] Pi, see
   /// docs/method.md.
@@ -68,6 +72,7 @@ struct BodyModel {
   Eigen::MatrixXd traction_balance;  ///< balance * G(0): 6 x 3N, by nodal tractions
   ModelReport report;
 
+  bool has_centrifugal() const { return !initial_centrifugal.empty(); }
   bool has_history() const { return discretisation.history_length > 0; }
   bool is_iterative() const { return !initial_h.empty(); }
   std::size_t nodes() const { return geometry.nodes.vertices.size(); }

@@ -30,8 +30,10 @@ SlabAssembler<T>::SlabAssembler(BodyModel& model, AssemblyPrecision precision)
     for (int node : model.loaded_nodes) loaded_[node] = 1;
   const auto n = static_cast<Eigen::Index>(3 * model.nodes());
   const std::size_t components = model.discretisation.scheme.initial_components().size();
-  model_.body_force.assign(lag_count(), Eigen::MatrixXd(n, 6));
-  model_.initial_body_force.assign(components, Eigen::MatrixXcd::Zero(n, 6));
+  for (auto* lags : {&model_.body_force, &model_.centrifugal})
+    lags->assign(lag_count(), Eigen::MatrixXd(n, 6));
+  for (auto* initial : {&model_.initial_body_force, &model_.initial_centrifugal})
+    initial->assign(components, Eigen::MatrixXcd::Zero(n, 6));
 }
 
 template <class T>
@@ -77,7 +79,13 @@ void SlabAssembler<T>::assemble_tiles(int first, int last, MatrixSlab<T>& slab) 
     const int count = std::min(kTileNodes, last - begin);
     for (int v = 0; v < count; ++v) {
       residuals[begin - first + v] = assembler_.assemble(begin + v, true, work, rows[v]);
-      distribute_body_force(begin + v, rows[v].d, rows[v].q, rows[v].padded_lanes);
+      const auto distribute = [&](const AlignedVector<double>& from, Eigen::Index first_column,
+                                  auto& lags, auto& initial) {
+        distribute_columns(begin + v, from, rows[v].padded_lanes, first_column, lags, initial);
+      };
+      distribute(rows[v].d, 0, model_.body_force, model_.initial_body_force);
+      distribute(rows[v].q, 3, model_.body_force, model_.initial_body_force);
+      distribute(rows[v].c, 0, model_.centrifugal, model_.initial_centrifugal);
     }
     distribute(begin, rows, count, slab);
   });
@@ -116,24 +124,23 @@ void SlabAssembler<T>::distribute(int first, const std::vector<BlockRow<S>>& row
     }
 }
 
+/// Lanes of 3 x n numbers of a node, to columns from `first` on.
 template <class T>
-void SlabAssembler<T>::distribute_body_force(int node, const AlignedVector<double>& d,
-                                             const AlignedVector<double>& q, int padded_lanes) {
+void SlabAssembler<T>::distribute_columns(int node, const AlignedVector<double>& from,
+                                          int padded_lanes, Eigen::Index first,
+                                          std::vector<Eigen::MatrixXd>& lags,
+                                          std::vector<Eigen::MatrixXcd>& initial) const {
   const auto& components = model_.discretisation.scheme.initial_components();
-  for (int e = 0; e < 9; ++e) {
-    const int r = 3 * node + e / 3, c = e % 3;
-    const double* from_d = &d[static_cast<std::size_t>(e) * padded_lanes];
-    const double* from_q = &q[static_cast<std::size_t>(e) * padded_lanes];
-    for (int lane = layout_.initial; lane < layout_.count(); ++lane) {
-      model_.body_force[lane - layout_.initial](r, c) = from_d[lane];
-      model_.body_force[lane - layout_.initial](r, 3 + c) = from_q[lane];
-    }
+  const auto entries = static_cast<int>(from.size()) / padded_lanes;
+  for (int e = 0; e < entries; ++e) {
+    const Eigen::Index r = 3 * node + e / (entries / 3), c = first + e % (entries / 3);
+    const double* lanes = &from[static_cast<std::size_t>(e) * padded_lanes];
+    for (int lane = layout_.initial; lane < layout_.count(); ++lane)
+      lags[lane - layout_.initial](r, c) = lanes[lane];
     int lane = 0;
     for (std::size_t i = 0; i < components.size(); ++i) {
       const bool paired = components[i].paired;
-      Eigen::MatrixXcd& m = model_.initial_body_force[i];
-      m(r, c) = Complex(from_d[lane], paired ? from_d[lane + 1] : 0.0);
-      m(r, 3 + c) = Complex(from_q[lane], paired ? from_q[lane + 1] : 0.0);
+      initial[i](r, c) = Complex(lanes[lane], paired ? lanes[lane + 1] : 0.0);
       lane += paired ? 2 : 1;
     }
   }

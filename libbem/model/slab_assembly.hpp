@@ -57,8 +57,9 @@ class SlabAssembler {
   template <class S>
   void distribute(int first, const std::vector<BlockRow<S>>& rows, int count,
                   MatrixSlab<T>& slab) const;
-  void distribute_body_force(int node, const AlignedVector<double>& d,
-                             const AlignedVector<double>& q, int padded_lanes);
+  void distribute_columns(int node, const AlignedVector<double>& from, int padded_lanes,
+                          Eigen::Index first, std::vector<Eigen::MatrixXd>& lags,
+                          std::vector<Eigen::MatrixXcd>& initial) const;
 
   BodyModel& model_;
   AssemblyPrecision precision_;

@@ -74,6 +74,7 @@ BodySpec read_body(const JsonValue& value) {
       throw correction->unexpected("\"projection\", because a static frame has no other");
   }
   if (const auto gravity = reader.optional("gravity")) body.gravity = gravity->boolean();
+  if (const auto stretch = reader.optional("centrifugal")) body.centrifugal = stretch->boolean();
   if (const auto friction = reader.optional("friction")) body.friction = friction->non_negative();
   read_constraints_and_loads(reader, body);
   reader.finish();

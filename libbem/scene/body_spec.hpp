@@ -102,6 +102,7 @@ struct BodySpec {
   FrameMotion frame = FrameMotion::moving;
   Correction correction = Correction::projection;
   bool gravity = true;
+  bool centrifugal = true;
   double friction = 0;  ///< coefficient, >= 0
   std::vector<Selection> fixed;
   std::vector<HandleSpec> handles;
@@ -109,6 +110,10 @@ struct BodySpec {
   Location location;
 
   bool is_stationary() const { return frame == FrameMotion::stationary; }
+  /// Whether its rotation stretches it: only in a frame that rotates, and not in the paper.
+  bool has_centrifugal() const {
+    return centrifugal && !is_stationary() && correction == Correction::projection;
+  }
 };
 
 }  // namespace bem

@@ -121,6 +121,7 @@ const std::string& scene_schema() {
         "frame": {"description": "Frame of the displacements; default moving.", "enum": ["moving", "static"]},
         "correction": {"description": "What keeps displacements free of rigid motion: the linear projection, or the paper's least squares, to compare with; default projection.", "enum": ["projection", "least_squares"]},
         "gravity": {"description": "Whether gravity acts on the body; default true.", "type": "boolean"},
+        "centrifugal": {"description": "Whether its rotation deforms the body: gyroscopic and centrifugal forces of a moving frame; default true.", "type": "boolean"},
         "friction": {"$ref": "#/$defs/friction"},
         "fixed": {"description": "Vertices that stay where they are.", "type": "array", "items": {"$ref": "#/$defs/selection"}},
         "handles": {"description": "Vertices with prescribed positions.", "type": "array", "items": {"$ref": "#/$defs/handle"}},

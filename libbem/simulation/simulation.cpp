@@ -167,6 +167,11 @@ void Simulation::load(ModelSource& source) {
           return scene_.bodies[b].correction == Correction::least_squares;
         }))
       s.correction = std::make_shared<LeastSquaresCorrection>(*s.system);
+    if (s.model->has_centrifugal() && std::any_of(users.begin(), users.end(), [&](int b) {
+          return scene_.bodies[b].has_centrifugal();
+        }))
+      s.centrifugal = std::make_shared<InputColumns>(
+          s.system->make_columns(s.model->centrifugal, s.model->initial_centrifugal));
     const std::vector<int> nodes = touched_nodes(users, *s.model);
     if (!nodes.empty()) {
       s.tractions = std::make_shared<NodalTractions>(

@@ -9,6 +9,7 @@ namespace bem_test {
 struct LagMatrices {
   std::vector<Eigen::MatrixXd> h, g;  ///< 3N x 3N
   std::vector<Eigen::MatrixXd> d, q;  ///< 3N x 3
+  std::vector<Eigen::MatrixXd> c;     ///< 3N x 6
   double residual = 0;                ///< largest entry that the own-block fix changed
 };
 
@@ -23,11 +24,15 @@ LagMatrices assemble_all(const bem::TriangleMesh& mesh, const bem::Discretisatio
   out.g = out.h;
   out.d.assign(lanes, Eigen::MatrixXd::Zero(3 * n, 3));
   out.q = out.d;
+  out.c.assign(lanes, Eigen::MatrixXd::Zero(3 * n, 6));
   bem::RowAssembler::Workspace work;
   bem::BlockRow<T> row;
   constexpr int kSymmetric[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
   for (int i = 0; i < n; ++i) {
     out.residual = std::max(out.residual, assembler.assemble(i, fix, work, row));
+    for (int lane = 0; lane < lanes; ++lane)
+      for (int e = 0; e < 18; ++e)
+        out.c[lane](3 * i + e / 6, e % 6) = row.c[e * row.padded_lanes + lane];
     for (int lane = 0; lane < lanes; ++lane)
       for (int e = 0; e < 9; ++e) {
         const int r = 3 * i + e / 3, c = e % 3;

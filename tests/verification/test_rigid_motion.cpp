@@ -12,7 +12,7 @@ using namespace bem_test;
 
 namespace {
 
-const char* const kSchemes[] = {"radau2", "bdf1", "bdf2", "theta:0.75"};
+const char* const kSchemes[] = {"radau2", "radau3", "bdf1", "bdf2", "theta:0.75"};
 
 /// A body of one mesh, with its scene.
 struct Case {
@@ -129,7 +129,8 @@ TEST_CASE("free fall is exact, without deformation, in any units and anywhere") 
 
 TEST_CASE("spin about a principal axis turns by the angle w t") {
   for (const char* scheme : kSchemes) {
-    Case c = make_case(box(kBox, {3, 2, 1}), material(1000, 1e7, 0.3), scheme, 3.5);
+    const double lam = std::string(scheme) == "radau3" ? 1.0 : 3.5;  // stable on this mesh
+    Case c = make_case(box(kBox, {3, 2, 1}), material(1000, 1e7, 0.3), scheme, lam);
     c.scene.bodies[0].angular_velocity = Vec3(0, 0, 5);
     Simulation simulation(c.scene, c.source);
     for (int n = 0; n < 1000; ++n) simulation.step();
@@ -190,10 +191,11 @@ TEST_CASE("a box turned about its intermediate axis flips as Euler's equations s
   REQUIRE((reference.rotation - coarser.rotation).norm() < 1e-11);
   REQUIRE(reference.omega[1] < -2);  // the body axis has turned over
   const std::pair<const char*, double> orders[] = {
-      {"radau2", 3}, {"bdf1", 1}, {"bdf2", 2}, {"theta:0.75", 1}};
+      {"radau2", 3}, {"radau3", 5}, {"bdf1", 1}, {"bdf2", 2}, {"theta:0.75", 1}};
   for (const auto& [scheme, order] : orders) {
     std::vector<double> errors;
-    for (const int steps : {600, 1200, 2400, 4800}) {
+    const int first = order > 4 ? 75 : 600;  // before rounding
+    for (const int steps : {first, 2 * first, 4 * first, 8 * first}) {
       const TumblingErrors e = tumble(scheme, kTime, steps, reference.rotation);
       errors.push_back(e.attitude);
       std::printf("tumbling %s, %d steps: attitude %.2e, momentum %.1e, energy %.1e\n", scheme,

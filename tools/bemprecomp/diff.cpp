@@ -97,8 +97,13 @@ class Comparison {
     report("body/inertia", inertia);
   }
 
-  void compare_small_matrices() {
-    const BodyForce a = a_.load_body_force(), b = b_.load_body_force();
+  void compare_body_force(const char* name) {
+    const std::string path = lags_path(name).substr(1);
+    if (name == kCentrifugal && !(a_.has_centrifugal() && b_.has_centrifugal())) {
+      if (a_.has_centrifugal() != b_.has_centrifugal()) report(path, "in one of them only");
+      return;
+    }
+    const BodyForce a = a_.load_body_force(name), b = b_.load_body_force(name);
     Norms lags, initial;
     for (std::size_t i = 0; i < std::min(a.lags.size(), b.lags.size()); ++i)
       lags.add(a.lags[i].data(), b.lags[i].data(), static_cast<std::size_t>(a.lags[i].size()));
@@ -106,8 +111,12 @@ class Comparison {
       initial.add(reinterpret_cast<const double*>(a.initial[i].data()),
                   reinterpret_cast<const double*>(b.initial[i].data()),
                   2 * static_cast<std::size_t>(a.initial[i].size()));
-    report("matrices/body_force/lags", lags);
-    report("matrices/body_force of lag 0", initial);
+    report(path + "/lags", lags);
+    report(path + " of lag 0", initial);
+  }
+
+  void compare_small_matrices() {
+    for (const char* name : {kBodyForce, kCentrifugal}) compare_body_force(name);
     for (const std::string path : {kBalancePath, kTractionBalancePath}) {
       const Eigen::MatrixXd x = a_.load_balance(path), y = b_.load_balance(path);
       if (x.size() != y.size()) {

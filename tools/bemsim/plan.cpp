@@ -66,7 +66,7 @@ double memory_of(const std::vector<PlannedBody>& bodies, bool contact) {
     if (seen.insert(&archive).second) bytes += archive.matrix_bytes(contact);
     bytes += 4 * lag_columns * static_cast<double>(archive.history_coefficients());
     const double prescribed = 3 * static_cast<double>(body.fixed + body.handled);
-    double inputs = 6 + 2 * prescribed;
+    double inputs = 6 + 2 * prescribed + (body.spec->has_centrifugal() ? 6 : 0);
     for (const TractionSpec& load : body.spec->tractions)
       inputs += load.is_pressure() || load.follow ? 1 : 3;
     bytes += n * inputs * (8 * lag_columns + 16 * initial) + 8 * n * lag_columns +
@@ -81,13 +81,20 @@ void add_warnings(Plan& plan) {
         where(plan.scene.obstacles[0].location) +
         ": obstacles touch nothing in a scene without contact; add \"contact\": "
         "{} to it");
-  std::set<const Archive*> seen;
+  std::set<const Archive*> seen, old;
   for (const PlannedBody& body : plan.bodies) {
     const double growth = body.archive->report().growth * body.archive->window();
     if (growth > kNoticeableGrowth && seen.insert(body.archive).second)
       plan.warnings.push_back(where(body.spec->archive.location) +
                               ": motions of this archive grow by a factor of " + to_text(growth) +
                               " per step; make it again with --window auto or a larger --dt");
+    if (body.spec->has_centrifugal() && !body.spec->angular_velocity.isZero(0) &&
+        body.archive->kind() != ModelKind::rigid && !body.archive->has_centrifugal() &&
+        old.insert(body.archive).second)
+      plan.warnings.push_back(
+          where(body.spec->archive.location) +
+          ": this archive knows nothing of centrifugal forces: rotation will "
+          "not stretch its bodies; make it again, or say \"centrifugal\": false");
     if (body.spec->frame == FrameMotion::stationary && body.fixed + body.handled == 0)
       plan.warnings.push_back(where(body.spec->location) + ": nothing holds the body " +
                               in_quotes(body.spec->name) +

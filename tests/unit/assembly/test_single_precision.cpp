@@ -69,7 +69,9 @@ double worst_difference(const LagMatrices& a, int a_lane, const LagMatrices& b, 
       worst = std::max({worst, block(a.h, a_lane, b.h, b_lane, i, j) / sizes[i].h[j],
                         block(a.g, a_lane, b.g, b_lane, i, j) / sizes[i].g[j]});
     worst = std::max({worst, block(a.d, a_lane, b.d, b_lane, i, 0) / sizes[i].d,
-                      block(a.q, a_lane, b.q, b_lane, i, 0) / sizes[i].q});
+                      block(a.q, a_lane, b.q, b_lane, i, 0) / sizes[i].q,
+                      block(a.c, a_lane, b.c, b_lane, i, 0) / sizes[i].q,
+                      block(a.c, a_lane, b.c, b_lane, i, 1) / sizes[i].q});
   }
   return worst;
 }
@@ -83,6 +85,7 @@ LagMatrices reference(const TriangleMesh& mesh, const Discretisation& d) {
   out.g = {m.g.real(), m.g.imag()};
   out.d = {m.d.real(), m.d.imag()};
   out.q = {m.q.real(), m.q.imag()};
+  out.c = {m.c.real(), m.c.imag()};
   return out;
 }
 
