@@ -25,7 +25,7 @@ class Body:
 @dataclasses.dataclass(frozen=True)
 class Trial:
     """A run: `scene` (of scenes/hard) with `changes` {JSON path: value or function of the time step}, how it has to
-    end ("complete"; "refused": bemprecomp with exit code 5; "stopped": bemsim with it), what has to be said (regular
+    end ("complete"; "refused": bemprecomp with exit code 5; "complete or stopped": bemsim with it), what has to be said (regular
     expressions), and bounds {figure: ("<=" or ">=", value)}."""
     name: str
     bodies: dict
@@ -53,8 +53,9 @@ class Case:
 
 
 # A free body that was pushed: bounded, moving at all, momentum exact.
-FREE = {"displacement": ("<=", 0.05), "later/early": ("<=", 1.05), "momentum defect": ("<=", 1e-12)}
-TOUCHING = {"penetration": ("<=", 2e-5), "energy gain": ("<=", 1e-3), "not met": ("<=", 0)}
+FREE = {"moved": (">=", 1e-6), "displacement": ("<=", 0.01), "later/early": ("<=", 1.0),
+        "momentum defect": ("<=", 1e-14)}
+TOUCHING = {"penetration": ("<=", 2e-5), "energy gain": ("<=", 1e-4), "not met": ("<=", 0)}
 
 
 def push(dt):
@@ -82,14 +83,30 @@ def nu(value):
     return {"poisson_ratio": value}
 
 
+def refused(name, body, says=("use a larger --dt",), **more):
+    return Trial(name, {"body": body}, ends="refused", says=says, **more)
+
+
+# Their shear waves go a fifth to a half of an edge in a step.
+REFUSED_PLATES = ("20-0.48-25", "20-0.4999-10", "20-0.4999-25", "50-0.4999-25")
+
+
 def plates():
     trials = []
     for ratio in (20, 50):
         for poisson in (0.3, 0.48, 0.4999):
             for lam in (3.5, 10, 25):
                 body = Body(("box", (1, 1, 1 / ratio), (5, 5, 1)), changes=nu(poisson), lam=lam)
-                trials.append(pushed(f"{ratio}-{poisson}-{lam}", body, steps=2000, short_steps=300,
-                                     short=(ratio, lam) in ((20, 3.5), (50, 10)) and poisson != 0.48))
+                name = f"{ratio}-{poisson}-{lam}"
+                if name in REFUSED_PLATES:
+                    trials.append(refused(name, body))
+                elif name == "50-0.48-10":  # its balance is lost in the errors of the codec, but they can be made smaller
+                    trials.append(refused(name, body, says=("use a smaller --codec-tol",)))
+                    better = dataclasses.replace(body, options=("--codec-tol", 1e-5))
+                    trials.append(pushed(f"{name}-codec-tol-1e-5", better, steps=2000))
+                else:
+                    trials.append(pushed(name, body, steps=2000, short_steps=200,
+                                         short=(ratio, lam) in ((20, 3.5), (50, 10)) and poisson != 0.48))
     return tuple(trials)
 
 
@@ -98,8 +115,12 @@ def held_plates():
     for ratio in (20, 50):
         for poisson in (0.3, 0.4999):
             body = Body(("box", (1, 1, 1 / ratio), (5, 5, 1)), changes=nu(poisson), lam=10)
-            trials.append(Trial(f"{ratio}-{poisson}", {"body": body}, "held", PUSH, steps=2000, short_steps=300,
-                                short=ratio == 20, bounds={"later/early": ("<=", 1.05)}))
+            if (ratio, poisson) == (20, 0.4999):
+                trials.append(refused(f"{ratio}-{poisson}", body, short=True))
+                body = dataclasses.replace(body, lam=3.5)
+            trials.append(Trial(f"{ratio}-{poisson}-{body.lam:g}", {"body": body}, "held", PUSH, steps=2000,
+                                short_steps=200, short=(ratio, poisson) == (20, 0.3),
+                                bounds={"moved": (">=", 1e-6), "later/early": ("<=", 1.0)}))
     return tuple(trials)
 
 
@@ -109,7 +130,7 @@ def odd_meshes():
     for name, says in (("needles", thin), ("slivers", thin), ("abrupt", thin), ("graded", ())):
         trials.append(pushed(f"{name}-free", Body((name,), lam=3.5), says=says, steps=1000, short_steps=200, short=True))
         trials.append(dropped(f"{name}-falls", Body((name,), lam=6), says=says, steps=400, short_steps=80,
-                              short=name in ("needles", "slivers")))
+                              short=name == "slivers"))
     return tuple(trials)
 
 
@@ -117,7 +138,7 @@ def gaps():
     trials = [pushed(f"gap-{gap:g}", Body(("slotted", gap), lam=lam), steps=1000, short_steps=200, short=gap == 0.01)
               for gap, lam in ((0.01, 6), (0.001, 6))]
     trials.append(Trial("closed", {"body": Body(("slotted", 0.01), lam=20)}, "closing", measured=("--self",),
-                        also=(figures.shut,), steps=200, short_steps=60, short=True, frames=60,
+                        also=(figures.shut,), steps=200, short_steps=50, short=True, frames=25,
                         bounds={"penetration": ("<=", 2e-5), "not met": ("<=", 0), "gap left": (">=", -1e-3)}))
     return tuple(trials)
 
@@ -127,6 +148,9 @@ def corners():
     for name in ("angle", "cross"):
         for poisson in (0.3, 0.49):
             body = Body((name,), changes=nu(poisson), lam=6)
+            if (name, poisson) == ("cross", 0.49):
+                trials.append(refused("cross-0.49-fine-steps", body, short=True))
+                body = dataclasses.replace(body, lam=3)
             trials.append(pushed(f"{name}-{poisson}-free", body, steps=1000, short_steps=200, short=poisson == 0.49))
         trials.append(dropped(f"{name}-falls", Body((name,), lam=6), steps=400, short_steps=80, short=name == "cross"))
     return tuple(trials)
@@ -242,7 +266,8 @@ def minimal():
     trials = []
     for name, mesh in (("cube", ("box", (1, 1, 1), (1, 1, 1))), ("tetrahedron", ("tetrahedron",))):
         for lam in (2, 6):
-            trials.append(pushed(f"{name}-{lam}-free", Body(mesh, lam=lam), steps=2000, short_steps=300, short=True))
+            side = {"/bodies/0/tractions/0/select": {"triangles": [0]}}
+            trials.append(pushed(f"{name}-{lam}-free", Body(mesh, lam=lam), changes=side, steps=2000, short_steps=300, short=True))
         trials.append(dropped(f"{name}-falls", Body(mesh, lam=2), steps=600, short_steps=150, short=True))
     return tuple(trials)
 
@@ -254,21 +279,29 @@ def stacks():
         bodies = {"light": Body(cube, "light", dt=0.002, options=options),
                   "heavy": Body(cube, "heavy", dt=0.002, options=options)}
         trials.append(Trial(name, bodies, "stack", steps=2500, short_steps=250, short=True, measured=(),
-                            bounds={**TOUCHING, "drift": ("<=", 1e-3)}))
+                            bounds={**TOUCHING, "drift": ("<=", 1e-3)}, short_bounds={"drift": ("<=", 1e-2)}))
     return tuple(trials)
 
 
 def impacts():
+    """Balls of 0.2 m whose shear waves have 32 m/s, at a half space, a plate of 20 mm and another ball."""
     ball = ("icosphere", "--subdivisions", 1, "--radius", 0.1)
+    strict = {"passed through": ("<=", 0), "pushed on": (">=", 0.4), "energy gain": ("<=", 1e-4),
+              "penetration": ("<=", 2e-5), "not met": ("<=", 0)}
+    loose = {"passed through": ("<=", 0), "pushed on": (">=", 0.4), "energy gain": ("<=", 1e-4), "penetration": ("<=", 5e-3)}
+    broken = {"energy gain": ("<=", 1e-4)}  # balls are flattened to nothing: a warning is what can be expected
+    rigid = ("--model", "rigid")
     trials = []
-    for name, speed, dt, options in (("c2", 30, 0.002, ()), ("c2-3-lengths", 30, 0.02, ()),
-                                     ("10-c2-3-lengths", 300, 0.002, ()), ("10-c2-30-lengths", 300, 0.02, ()),
-                                     ("rigid-3-lengths", 30, 0.02, ("--model", "rigid"))):
+    for name, speed, dt, options, bounds in (
+            ("c2", 30, 0.002, (), strict), ("c2-in-3-sizes", 30, 0.02, (), loose),
+            ("rigid-in-3-sizes", 30, 0.02, rigid, loose), ("10-c2-in-3-sizes", 300, 0.002, (), broken),
+            ("10-c2-in-30-sizes", 300, 0.02, (), broken)):
         changes = {f"/bodies/{k}/velocity": v for k, v in enumerate(([-speed, 0, 0], [0, -speed, 0], [0, -speed, 0]))}
         trials.append(Trial(name, {"ball": Body(ball, dt=dt, options=options)}, "impact", changes,
-                            {"plate": ("box", (0.6, 0.02, 0.6), (6, 1, 6))}, steps=100, short_steps=30, short=True, frames=0,
-                            measured=(), also=(figures.passes_through,),
-                            bounds={"passed through": ("<=", 0), "penetration": ("<=", 2e-5), "energy gain": ("<=", 1e-3)}))
+                            {"plate": ("box", (0.6, 0.02, 0.6), (6, 1, 6))}, steps=20, short=bounds is not broken, frames=0,
+                            measured=(), also=(figures.impact,), bounds=bounds,
+                            ends="complete or stopped" if bounds is broken else "complete",
+                            says=("use a shorter time step",) if bounds is broken else ()))
     return tuple(trials)
 
 
@@ -280,11 +313,12 @@ def rests():
     plate = ("box", (1, 0.05, 1), (4, 1, 4))
     lie = {"/bodies/0/position": [0, 0.025, 0], "/bodies/0/rotation": {"axis": [0, 1, 0], "angle_deg": 20}}
     bounds = {"drift": ("<=", 1e-5), "end speed": ("<=", 1e-5)}
+    soon = {"end speed": ("<=", 1e-3)}
     trials = []
     for name, mesh, changes in (("cube", cube, {**still, **at}), ("cube-on-slope", cube, {**slope, **at}),
                                 ("plate", plate, {**still, **lie})):
         trials.append(dropped(name, Body(mesh, dt=0.005), changes=changes, steps=12000, short_steps=600,
-                              short=name != "plate", bounds=bounds))
+                              short=name != "plate", bounds=bounds, short_bounds=soon))
     return tuple(dataclasses.replace(t, frames=600) for t in trials)
 
 
@@ -306,19 +340,33 @@ def long_runs():
 
 
 CASES = {
-    "plates": Case("", plates(), "shapes"),
-    "held-plates": Case("", held_plates(), "shapes"),
-    "odd-meshes": Case("", odd_meshes(), "shapes"),
-    "gaps": Case("", gaps(), "shapes"),
-    "re-entrant": Case("", corners(), "shapes"),
-    "minimal": Case("", minimal(), "shapes"),
-    "poisson": Case("", poisson_ratios(), "materials"),
-    "time-steps": Case("", time_steps(), "materials"),
-    "units": Case("", units(), "invariance"),
-    "motions": Case("", motions(), "invariance"),
-    "stack": Case("", stacks(), "contact"),
-    "impact": Case("", impacts(), "contact"),
-    "rest": Case("", rests(), "contact"),
-    "top": Case("", tops(), "contact"),
-    "long": Case("", long_runs(), "materials"),
+    "plates": Case("free plates of 1 m, 20:1 and 50:1, one element thick and 4 to 10 thicknesses long, ν 0.3, 0.48, "
+                   "0.4999, pushed: the motion decays; time steps too short for sharp edges with ν near 0.5 are "
+                   "refused with the cure", plates(), "shapes"),
+    "held-plates": Case("the same plates, held at one edge and pushed: the motion decays or is refused with the cure",
+                        held_plates(), "shapes"),
+    "odd-meshes": Case("cubes with needles (aspect 2000, 0.03°), slivers (10,000, 0.01°), triangles beside others a "
+                       "hundred times as long, triangles graded 256 to 1; pushed, and dropped askew: a warning of thin "
+                       "triangles, the motion decays, nothing penetrates", odd_meshes(), "shapes"),
+    "gaps": Case("a C of 1 m whose arms are 10 mm or 1 mm apart: the motion decays; pressed together they touch and do "
+                 "not pass through each other", gaps(), "shapes"),
+    "re-entrant": Case("an L and three crossed bars, pushed and dropped: as above; too short a time step for ν 0.49 is "
+                       "refused with the cure", corners(), "shapes"),
+    "minimal": Case("a cube of 8 vertices and a tetrahedron, pushed and dropped: as above", minimal(), "shapes"),
+    "poisson": Case("a ball and a cube with ν 0, 0.49, 0.4999, 0.5: the motion decays; much too short a time step on "
+                    "the cube with 0.5 is refused with the cure", poisson_ratios(), "materials"),
+    "time-steps": Case("an icosahedron, histories of 2 to 100 steps: the motion decays", time_steps(), "materials"),
+    "long": Case("100,000 steps of a tumbling ball and beam after a push: the motion decays, momentum is exact",
+                 long_runs(), "materials"),
+    "units": Case("a block in metres, millimetres and kilometres, pushed and dropped: the same but for rounding "
+                  "(lowrank: its tolerance)", units(), "invariance"),
+    "motions": Case("the block in a turned world and with other numbers of vertices and triangles: the same but for "
+                    "rounding; falling in a turned world: but for the contact tolerance", motions(), "invariance"),
+    "stack": Case("a cube on one a thousandth of its mass, elastic and rigid: they stay", stacks(), "contact"),
+    "impact": Case("balls at the speed of shear waves and ten times that, up to thirty of their sizes per step, at a half "
+                   "space, a thin plate and a ball: none gets through, or a warning names the cure", impacts(), "contact"),
+    "rest": Case("a cube, a cube on a slope and a plate lie on a floor for 60 s: no drift, no energy, no penetration",
+                 rests(), "contact"),
+    "top": Case("a top with 200 rad/s on its tip for 5 s, elastic and rigid: stays upright, energy does not grow",
+                tops(), "contact"),
 }

@@ -47,13 +47,14 @@ def of_trial(place, trial):
 
 
 def deformations(frames):
-    """Largest displacement from the frame over the extent; that of the last three quarters of the run over that
+    """Largest displacement from the frame over the extent, in the first quarter of the run and in all of it; that of the last three quarters of the run over that
     of the first quarter, and that of the last tenth. Of the body for which it is worst."""
-    found = {"displacement": 0.0, "later/early": 0.0, "last/early": 0.0}
+    found = {"moved": 0.0, "displacement": 0.0, "later/early": 0.0, "last/early": 0.0}
     for name in frames.positions:
         size = np.linalg.norm(frames.deformation(name), axis=2).max(axis=1) / frames.extent(name)
         count = len(size)
         early = max(size[:max(2, count // 4)].max(), 1e-12)
+        found["moved"] = max(found["moved"], float(early))
         found["displacement"] = max(found["displacement"], float(size.max()))
         found["later/early"] = max(found["later/early"], float(size[count // 4:].max() / early))
         found["last/early"] = max(found["last/early"], float(size[-max(1, count // 10):].max() / early))
@@ -214,13 +215,15 @@ def tilt(place, frames):
             "tip lifts": float(tips.max() / frames.extent(name))}
 
 
-def passes_through(place, frames):
-    """How far beyond what they hit bodies ever are, over their size, at frames (impact.json)."""
+def impact(place, frames):
+    """How far bodies ever are beyond what they hit, over their size, at frames, and the speed of the body that was
+    hit over that of the one that came (impact.json)."""
     size = frames.extent("target")
     centres = {name: x.mean(axis=1) for name, x in frames.positions.items()}
-    beyond = [-2 - centres["at-floor"][:, 0].min(), -centres["at-plate"][:, 1].min(),
-              (centres["target"] - centres["at-body"])[:, 1].max()]
-    return {"passed through": float(max(0, *beyond) / size)}
+    beyond = max(-2 - centres["at-floor"][:, 0].min(), -centres["at-plate"][:, 1].min(), 0)
+    speed = (centres["target"][-1, 1] - centres["target"][-2, 1]) / (frames.times[-1] - frames.times[-2])
+    came = load(place / "scene.json")["bodies"][2]["velocity"][1]
+    return {"passed through": float(beyond / size), "pushed on": float(speed / came)}
 
 
 def shut(place, frames):
