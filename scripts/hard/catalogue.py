@@ -174,7 +174,7 @@ def time_steps():
     for lam, history in ((0.1, 2), (0.3, 3), (1, 5), (3, 7), (6, 11), (12, 17), (25, 38), (50, 67), (80, 100)):
         options = ("--history", 2) if history == 2 else ()
         trials.append(pushed(f"history-{history}", Body(mesh, lam=lam, options=options), steps=max(300, 40 * round(lam)),
-                             short_steps=150, short=history in (2, 5, 17, 67),
+                             short_steps=150, short=history in (2, 5, 17, 38),
                              bounds={"history": (">=", history)}))
     return tuple(trials)
 
@@ -248,9 +248,11 @@ def motions():
                      "/bodies/0/velocity": list(r @ [0.5, -1, 0]),
                      "/bodies/0/rotation": axis_and_angle(r @ axis @ r.T),
                      "/obstacles/0/plane/normal": list(r @ [0, 1, 0])}
-            same = {} if way == "plain" else {"bounds": {"positions differ": ("<=", bound)}}
             short = {"short": codec == "exact" and way in ("plain", "both"), "short_steps": 100}
             for kind, make, change in (("free", pushed, changes), ("falls", dropped, falls)):
+                # solutions of contacts in other axes agree to the contact tolerance, which tumbling makes more of
+                allowed = 1e-3 if kind == "falls" and r is turn else bound
+                same = {} if way == "plain" else {"bounds": {"positions differ": ("<=", allowed)}}
                 trials.append(make(f"{kind}-{way}-{codec}", body, changes=change, steps=300, **short, **same, image_of=None
                                    if way == "plain" else (f"{kind}-plain-{codec}", Image(1, r, o))))
     return tuple(trials)
@@ -290,15 +292,19 @@ def impacts():
               "penetration": ("<=", 2e-5), "not met": ("<=", 0)}
     loose = {"passed through": ("<=", 0), "pushed on": (">=", 0.4), "energy gain": ("<=", 1e-4), "penetration": ("<=", 5e-3)}
     broken = {"energy gain": ("<=", 1e-4)}  # balls are flattened to nothing: a warning is what can be expected
+    unmet = {"passed through": ("<=", 0), "energy gain": ("<=", 1e-4)}  # where the ball goes is left to chance
     rigid = ("--model", "rigid")
     trials = []
     for name, speed, dt, options, bounds in (
             ("c2", 30, 0.002, (), strict), ("c2-in-3-sizes", 30, 0.02, (), loose),
+            ("c2-in-3-sizes-off-centre", 30, 0.02, (), unmet),
             ("rigid-in-3-sizes", 30, 0.02, rigid, loose), ("10-c2-in-3-sizes", 300, 0.002, (), broken),
             ("10-c2-in-30-sizes", 300, 0.02, (), broken)):
         changes = {f"/bodies/{k}/velocity": v for k, v in enumerate(([-speed, 0, 0], [0, -speed, 0], [0, -speed, 0]))}
+        if "off-centre" in name:
+            changes["/bodies/3"] = {"name": "target", "archive": "ball.bem", "position": [6.02, 0, 0.01]}
         trials.append(Trial(name, {"ball": Body(ball, dt=dt, options=options)}, "impact", changes,
-                            {"plate": ("box", (0.6, 0.02, 0.6), (6, 1, 6))}, steps=20, short=bounds is not broken, frames=0,
+                            {"plate": ("box", (0.6, 0.02, 0.6), (6, 1, 6))}, steps=20, short=bounds in (strict, loose), frames=0,
                             measured=(), also=(figures.impact,), bounds=bounds,
                             ends="complete or stopped" if bounds is broken else "complete",
                             says=("use a shorter time step",) if bounds is broken else ()))
