@@ -12,7 +12,8 @@ namespace bem {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
-constexpr double kGoal = 0.05;  ///< of the contact tolerance: error at which an iteration ends
+constexpr double kGoal = 0.05;   ///< of the contact tolerance: error at which an iteration ends
+constexpr double kMostTurn = 3;  ///< that contact forces are tried with in a step [rad]
 
 Mat3 contact_frame(const Vec3& normal) {
   // the coordinate axis farthest from the normal makes the first tangent
@@ -204,10 +205,32 @@ ConstraintSolver::State ConstraintSolver::evaluate(const ContactProblem* problem
   return s;
 }
 
-void ConstraintSolver::move(const Direction& direction, double step) {
+std::vector<Vec3> ConstraintSolver::forces_after(const Direction& direction, double step) const {
+  std::vector<Vec3> out = forces_;
   for (std::size_t c = 0; c < forces_.size(); ++c)
-    forces_[c] += step * (placed_.frames[c] *
-                          direction.contacts.segment<3>(static_cast<Eigen::Index>(3 * c)));
+    out[c] += step *
+              (placed_.frames[c] * direction.contacts.segment<3>(static_cast<Eigen::Index>(3 * c)));
+  return out;
+}
+
+/// By how much contact forces turn the bodies without joints in the step, at most [rad];
+/// linearised.
+double ConstraintSolver::largest_turn(const std::vector<Vec3>& forces) const {
+  double largest = 0;
+  for (std::size_t b = 0; b < bodies_->size(); ++b) {
+    if (placed_.ports[b].empty() || mechanisms_[mechanism_of_[b]].unknowns() > 0) continue;
+    const Body::FrameCompliance frame = (*bodies_)[b].contact_frame_compliance();
+    Vec3 moment = Vec3::Zero();
+    for (const Port& p : placed_.ports[b])
+      moment += (placed_.pairs[p.constraint].contact.point - frame.centre)
+                    .cross(p.sign * forces[p.constraint]);
+    largest = std::max(largest, (frame.rotation * moment).norm());
+  }
+  return largest;
+}
+
+void ConstraintSolver::move(const Direction& direction, double step) {
+  forces_ = forces_after(direction, step);
   for (std::size_t m = 0; m < mechanisms_.size(); ++m)
     if (direction.joints[m].size() > 0) mechanisms_[m].add_forces(step * direction.joints[m]);
 }
@@ -217,8 +240,11 @@ void ConstraintSolver::move(const Direction& direction, double step) {
 void ConstraintSolver::choose_start() {
   const std::vector<Vec3> last = forces_;
   const auto largest = [this] { return contact_displacements().cwiseAbs().maxCoeff(); };
-  update();
-  const double with = largest();
+  double with = kUnknown;
+  if (largest_turn(last) <= kMostTurn) {
+    update();
+    with = largest();
+  }
   forces_.assign(forces_.size(), Vec3::Zero());
   update();
   if (with < largest()) forces_ = last;
@@ -255,11 +281,15 @@ ConstraintSolver::Direction ConstraintSolver::find_direction(ContactProblem& pro
 }
 
 /// Goes along the direction, half the way as long as the residual rises above the reference;
-/// leaves the bodies at the best place tried.
+/// leaves the bodies at the best place tried. It starts no farther than where rotations can follow:
+/// a body whose motion is not finite cannot come back within the step.
 ConstraintSolver::State ConstraintSolver::search(const ContactProblem& problem,
                                                  const Direction& direction, double reference) {
   constexpr int kHalvings = 4;
+  constexpr double kShortest = 1e-9;
+  const double most = std::max(kMostTurn, largest_turn(forces_));
   double at = 0, step = 1, best_step = 0;
+  while (step > kShortest && !(largest_turn(forces_after(direction, step)) <= most)) step *= 0.5;
   State best;
   for (int trial = 0; trial <= kHalvings; ++trial, step *= 0.5) {
     move(direction, step - at);

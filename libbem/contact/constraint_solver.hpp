@@ -105,6 +105,8 @@ class ConstraintSolver {
   Eigen::VectorXd local_forces() const;
   void apply_contact_forces();
   State evaluate(const ContactProblem* problem);
+  std::vector<Vec3> forces_after(const Direction& direction, double step) const;
+  double largest_turn(const std::vector<Vec3>& forces) const;
   void move(const Direction& direction, double step);
   void choose_start();
   ConstraintStatistics solve_joints();

@@ -49,6 +49,21 @@ class OtherLoad:
         return max(busy - own, 0.0) / max(wall, 1e-3)
 
 
+def changed(content, changes):
+    """Puts values {JSON path: value} into a document; a whole number for an array keeps its first few items."""
+    for pointer, value in changes.items():
+        *parents, key = pointer.strip("/").split("/")
+        target = content
+        for parent in parents:
+            target = target[int(parent) if isinstance(target, list) else parent]
+        if isinstance(target, list):
+            key = int(key)
+        elif isinstance(value, int) and isinstance(target.get(key), list):
+            value = target[key][:value]
+        target[key] = value
+    return content
+
+
 class Workspace:
     """`folder` receives everything; `binaries` holds the programs of the project."""
 
@@ -123,14 +138,7 @@ class Workspace:
         scene = SCENES[name]
         content = json.loads((SOURCES / f"{scene.file}.json").read_text())
         changes = {**scene.changes, **(scene.small_changes if self.small else {})}
-        for pointer, value in changes.items():
-            *parents, key = pointer.strip("/").split("/")
-            target = content
-            for parent in parents:
-                target = target[int(parent) if isinstance(target, list) else parent]
-            if isinstance(value, int) and isinstance(target[key], list):
-                value = target[key][:value]  # the first few
-            target[key] = value
+        changed(content, changes)
         for thing in [*content["bodies"], *content.get("obstacles", [])]:
             for key in thing.keys() & {"archive", "mesh"}:
                 thing[key] = pathlib.PurePath(thing[key]).name

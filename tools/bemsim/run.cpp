@@ -132,7 +132,7 @@ class Run {
     while (simulation_->steps() < plan_.steps) {
       check_interrupt();
       timer_.begin(kSteppingPhase);
-      simulation_->step();
+      step();
       if (const auto unmet = statistics_.record_step(*simulation_)) log_.detail(*unmet);
       if (plan_.schedule.contains(simulation_->steps())) write_frame();
       if (options_.checkpoint_every > 0 && simulation_->steps() % options_.checkpoint_every == 0)
@@ -141,6 +141,18 @@ class Run {
                   static_cast<double>(simulation_->steps()) / static_cast<double>(plan_.steps));
     }
     if (options_.checkpoint_every > 0) save();
+  }
+
+  /// One that fails while constraints are not met says what helps.
+  void step() {
+    try {
+      simulation_->step();
+    } catch (const Error& e) {
+      if (e.code() != ErrorCode::numerical || simulation_->statistics().converged()) throw;
+      throw Error(e.code(),
+                  std::string(e.what()) +
+                      ": the constraints of the step were not met, use a shorter time step");
+    }
   }
 
   void restore(StateReader& earlier) {
