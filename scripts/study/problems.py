@@ -153,7 +153,7 @@ PROBLEMS = {
         Plan((((2, 4), (6, 9, 12)),),
              {"codec": (4, 6), "quadrature": (2, 9), "window": (2, 9), "history": (2, 9)},
              (Setting(2, 18), Setting(4, 18), Setting(6, 18), Setting(10, 6))),
-        (Setting(2, 9), Setting(2, 9, "bdf2"))),
+        (Setting(2, 6), Setting(2, 6, "bdf2"))),
     "mode": Problem(
         "Sphere, free mode S2", MODE_PERIOD, "f (10 f^2 + 2 nodes)", "amplitude",
         lambda f: meshes.geodesic_sphere(f, SPHERE.RADIUS), material(SPHERE.DENSITY, SPHERE.shear, SPHERE.poisson),

@@ -56,7 +56,7 @@ class Plan:
                  for scheme in schemes]
         for name in self.sweeps:
             found += self.swept(name)
-        return list(dict.fromkeys([*found, *self.more]))
+        return sorted(dict.fromkeys([*found, *self.more]), key=lambda s: (s.mesh, s.steps))  # cheap ones first
 
     def swept(self, name):
         """The settings of a sweep; none if the problem has not that sweep."""

@@ -132,6 +132,18 @@ def table_quadrature(found):
                        ("rod-fixed", "sphere", "beam"))
 
 
+def table_corners(found):
+    """Double nodes at the edges of the held face."""
+    rows = []
+    for scene in ("rod-fixed", "beam"):
+        for setting, r, _ in sweep_rows(found, scene, "corners"):
+            base = of_scene(found, scene).get(Setting(setting.mesh, setting.steps).key())
+            if base:
+                rows.append([TITLES[scene], f"{base['nodes']} / {r['nodes']}", f"{error(base)} / {error(r)}",
+                             f"{number(base['precompute_cpu'])} / {number(r['precompute_cpu'])}"])
+    return table(["problem", "nodes: single / double", "error", "precompute [CPU s]"], rows)
+
+
 def table_history(found):
     rows = []
     for scene in ("rod-fixed", "sphere", "mode", "beam"):
