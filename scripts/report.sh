@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # The long study: everything that docs/accuracy.md and docs/performance.md quote, on this machine.
-# Takes about an hour; leaves text and JSON in out/report, and the tables in out/report/summary.md.
+# Takes about an hour and a half; leaves text and JSON in out/report, and the tables in out/report/summary.md;
+# those of the parts study and calculix in out/study (scripts/study.py, docs/accuracy.md).
 # Figures are worth something only while the machine does nothing else.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage="usage: scripts/report.sh [PART...]
   parts: tests (ctest -L long), benchmarks (bem_bench), bunny and spheres (whole bemprecomp runs),
-  steps (bemsim on the bunny); all of them by default"
+  steps (bemsim on the bunny), study (speed against error), calculix (the same with a volume finite
+  element program); all of them by default"
 
-parts=(tests benchmarks bunny spheres steps)
+parts=(tests benchmarks bunny spheres steps study calculix)
 case "${1:-}" in -h | --help) echo "$usage"; exit 0 ;; esac
 for part in "$@"; do
   [[ " ${parts[*]} " == *" $part "* ]] || { echo "error: unknown part '$part'"$'\n'"$usage" >&2; exit 2; }
@@ -85,6 +87,15 @@ print(json.dumps({"version": 1, "time_step": dt, "duration": 200 * dt, "output":
 PYTHON
     "$bin/bemsim" "$out/steps-$scheme.scene.json" -o "$out/steps-$scheme" --stats "$out/steps-$scheme.json" --force -q
   done
+}
+
+run_study() {
+  BEM_BIN=$bin scripts/study.py
+}
+
+run_calculix() {
+  ./scripts/setup.sh --calculix
+  BEM_BIN=$bin scripts/study.py calculix
 }
 
 for part in "${parts[@]}"; do

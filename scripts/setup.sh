@@ -4,11 +4,12 @@
 # there is only a warning.
 set -euo pipefail
 
-usage="usage: scripts/setup.sh [--test] [--bench] [--lint] [--npm]
+usage="usage: scripts/setup.sh [--test] [--bench] [--lint] [--npm] [--calculix]
   --test   also what the tests need to read output as other programs do
   --bench  also what the benchmarks need, and Siconos to compare with
   --lint   also clang-format and clang-tidy
-  --npm    also npm, which fetches example meshes"
+  --npm    also npm, which fetches example meshes
+  --calculix  also CalculiX, which the study compares with"
 
 fail() {
   echo "error: $2" >&2
@@ -28,6 +29,7 @@ for argument in "$@"; do
     --bench) packages+=(libbenchmark-dev libopenblas-dev); optional+=(libsiconos-numerics-dev) ;;
     --lint) packages+=(clang-format clang-tidy) ;;
     --npm) command -v npm >/dev/null || packages+=(nodejs npm) ;;
+    --calculix) packages+=(calculix-ccx) ;;
     -h | --help) echo "$usage"; exit 0 ;;
     *) fail 2 "unknown option '$argument'"$'\n'"$usage" ;;
   esac

@@ -1,0 +1,61 @@
+"""Puts tables and plots together, and into docs/accuracy.md between its markers."""
+import pathlib
+import shutil
+
+from paper.tables import inserted
+from paper.workspace import ROOT
+
+from . import plots, tables
+from .settings import Setting
+from .tables import SCENES
+
+DOCUMENT, IMAGES = ROOT / "docs/accuracy.md", ROOT / "docs/images/study"
+PHASES_OF = (("rod-fixed", Setting(2, 40)), ("rod-fixed", Setting(4, 80)), ("rod-fixed", Setting(7, 20)),
+             ("sphere", Setting(6, 18)), ("sphere", Setting(10, 6)), ("beam", Setting(6, 80)), ("slide", Setting(2, 128)))
+
+
+def headline(found):
+    """The runs that promises are made of: the rod and the sphere with the default scheme."""
+    rows = []
+    for scene, setting, promise in (("rod-fixed", Setting(4, 80), "1.5 %"), ("sphere", Setting(4, 18), "3 %"),
+                                    ("sphere", Setting(6, 18), "3 %")):
+        r = tables.of_scene(found, scene).get(setting.key())
+        if r and r["error"] is not None:
+            rows.append([tables.TITLES[scene], r["nodes"], f"{r['dt']:.3g}", f"{setting.steps} ({r['lam']:.0f})",
+                         f"{100 * r['error']:.2f} %", promise, tables.number(r["precompute_cpu"], 3),
+                         tables.number(tables.per_second(r), 3), tables.megabytes(r["archive_bytes"]),
+                         tables.megabytes(r["precompute_memory"])])
+    return tables.table(["problem", "nodes", "dt [s]", "steps per period (traversal)", "error", "at most",
+                         "precompute [CPU s]", "simulation [CPU s per s]", "archive [MB]", "memory [MB]"], rows)
+
+
+def parts(found):
+    """Markdown by the name of its markers."""
+    names = {"headline": headline(found) + "\n\n" + tables.remark(found)}
+    for scene in SCENES:
+        if tables.of_scene(found, scene):
+            names[f"{scene}"] = tables.table_front(found, scene)
+            names[f"{scene} schemes"] = tables.table_schemes(found, scene)
+    names["meshes"] = tables.table_meshes(found)
+    for name in ("codec", "quadrature", "corners", "history", "window", "energy", "slide", "calculix"):
+        names[name] = getattr(tables, f"table_{name}")(found)
+    names["phases"] = tables.table_phases(found, PHASES_OF)
+    return {f"study {name}": text for name, text in names.items() if text and not text.endswith("--- |")}  # no rows
+
+
+def summary(found):
+    return "\n\n".join(f"## {name[6:]}\n\n{text}" for name, text in parts(found).items()) + "\n"
+
+
+def update_docs(found, out):
+    """Fills the markers that the document has; plots into docs/images/study."""
+    document = DOCUMENT.read_text()
+    there = {name: text for name, text in parts(found).items() if f"<!-- {name} -->" in document}
+    DOCUMENT.write_text(inserted(document, there))
+    IMAGES.mkdir(parents=True, exist_ok=True)
+    for picture in pathlib.Path(out).glob("*.svg"):
+        shutil.copy(picture, IMAGES)
+
+
+def draw(found, out):
+    return plots.draw(found, pathlib.Path(out))
