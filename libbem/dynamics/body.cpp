@@ -145,13 +145,17 @@ void Body::begin_step(SpectralState free, bool held, const std::optional<Holder>
   contact_nodes_.clear();
   contact_forces_.resize(0);
   contact_moment_.setZero();
-  // until the first update() everything stays where it is
+  stay();
+  end_known_ = false;
+}
+
+/// Until the first update() everything stays where it is.
+void Body::stay() {
   const RigidFrame::Stages now = frame_.current();
   frame_stages_.translation.assign(stage_count_, now.translation[0]);
   frame_stages_.rotation.assign(stage_count_, now.rotation[0]);
   frame_stages_.turn.assign(stage_count_, now.turn[0]);
   frame_stages_.angular_momentum.assign(stage_count_, now.angular_momentum[0]);
-  end_known_ = false;
 }
 
 /// Refuses contacts where the archive has no loads.
@@ -265,6 +269,11 @@ double Body::set_centrifugal() {
 
 double Body::update() {
   end_known_ = false;
+  // forces that were tried and were too large leave nothing behind
+  const auto finite = [](const auto& x) { return x.allFinite(); };
+  if (!std::all_of(frame_stages_.rotation.begin(), frame_stages_.rotation.end(), finite) ||
+      !std::all_of(frame_stages_.translation.begin(), frame_stages_.translation.end(), finite))
+    stay();
   for (PrescribedLoad& p : loads_)
     for (int a = 0; a < stage_count_; ++a)
       p.stages.col(a) = p.load.values(stage_time(a), frame_stages_.rotation[a]);

@@ -132,6 +132,7 @@ class Body {
   void check_loadable(const std::vector<int>& nodes) const;
   double stage_time(int stage) const;
   double set_centrifugal();
+  void stay();
   FrameLoads frame_loads() const;
   double contact_gain() const;
   Vec3 contact_force() const;

@@ -1,7 +1,7 @@
 """Settings of a run and the lists of settings that the study goes through."""
 import dataclasses
 
-SCHEMES = ("bdf1", "theta:0.5", "theta:0.75", "bdf2", "radau2")
+SCHEMES = ("bdf1", "theta:0.5", "theta:0.75", "bdf2", "radau2", "radau3")
 BASE = "radau2"  # the default, which single factors are varied around
 
 
