@@ -126,3 +126,19 @@ TEST_CASE("the end of a step is where its constraint nodes are") {
     for (std::size_t i = 0; i < now.size(); ++i) CHECK((now[i] - end[i]).norm() < 1e-14);
   }
 }
+
+TEST_CASE("forces that are too large for numbers leave nothing behind when they are taken back") {
+  for (bool rigid : {false, true}) {
+    Trial trial("radau2", rigid);
+    const Eigen::VectorXd before = trial.positions(Group::contact, 1);
+    trial.body->contact_forces().setConstant(1e300);
+    trial.body->contact_moment().setConstant(1e300);
+    trial.body->update();
+    trial.body->update();
+    CHECK(!trial.positions(Group::contact, 1).allFinite());
+    trial.body->contact_forces().setZero();
+    trial.body->contact_moment().setZero();
+    trial.settle();
+    CHECK((trial.positions(Group::contact, 1) - before).norm() <= 1e-12 * before.norm());
+  }
+}
