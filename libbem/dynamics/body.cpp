@@ -246,10 +246,10 @@ Vec3 Body::contact_force() const {
   return sum;
 }
 
-/// The centrifugal force by the rotation that is known at the stages. Returns how much it has
-/// changed, as a strain.
+/// The centrifugal force by the rotation that is known at the stages, no larger than what would
+/// stretch the body by about its size. Returns how much it has changed, as a strain.
 double Body::set_centrifugal() {
-  constexpr double kNegligible = 1e-14;
+  constexpr double kNegligible = 1e-14, kMost = 1;
   if (!elastic_ || !elastic_->has_centrifugal()) return 0;
   const Material& m = model().discretisation.material;
   const double extent = model().geometry.extent;
@@ -261,7 +261,9 @@ double Body::set_centrifugal() {
     entries.col(a) << w.squaredNorm() - w[0] * w[0], -w[0] * w[1], -w[0] * w[2],
         w.squaredNorm() - w[1] * w[1], -w[1] * w[2], w.squaredNorm() - w[2] * w[2];
   }
-  if (!(strain * entries.cwiseAbs().maxCoeff() > kNegligible)) entries.setZero();
+  const double largest = strain * entries.cwiseAbs().maxCoeff();
+  if (!(largest > kNegligible)) entries.setZero();
+  if (largest > kMost) entries *= kMost / largest;
   const double change = strain * (entries - elastic_->centrifugal_stages()).cwiseAbs().maxCoeff();
   elastic_->set_centrifugal(entries);
   return change;

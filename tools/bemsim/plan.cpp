@@ -75,6 +75,14 @@ double memory_of(const std::vector<PlannedBody>& bodies, bool contact) {
   return bytes;
 }
 
+/// Whether the centrifugal force stretches a body so much that linear elasticity does not hold.
+bool spins_fast(const PlannedBody& body) {
+  constexpr double kFast = 0.5;
+  if (!body.spec->has_centrifugal() || body.archive->kind() == ModelKind::rigid) return false;
+  const double speed = body.spec->angular_velocity.norm() * body.archive->geometry().extent;
+  return speed > kFast * body.archive->discretisation().material.shear_speed();
+}
+
 void add_warnings(Plan& plan) {
   if (!plan.scene.obstacles.empty() && !plan.scene.contact.enabled)
     plan.warnings.push_back(
@@ -95,6 +103,11 @@ void add_warnings(Plan& plan) {
           where(body.spec->archive.location) +
           ": this archive knows nothing of centrifugal forces: rotation will "
           "not stretch its bodies; make it again, or say \"centrifugal\": false");
+    if (spins_fast(body))
+      plan.warnings.push_back(where(body.spec->location) + ": the body " +
+                              in_quotes(body.spec->name) +
+                              " turns about as fast as it vibrates: its deformation will be wrong; "
+                              "make it stiffer or slower, or say \"centrifugal\": false");
     if (body.spec->frame == FrameMotion::stationary && body.fixed + body.handled == 0)
       plan.warnings.push_back(where(body.spec->location) + ": nothing holds the body " +
                               in_quotes(body.spec->name) +
