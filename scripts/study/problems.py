@@ -144,7 +144,7 @@ PROBLEMS = {
         {"rod-fixed": (rod_scene(True), measure_rod(True)), "rod-free": (rod_scene(False), measure_rod(False))},
         Plan((((1, 2), (20, 40, 80)), ((4,), (20, 40))),
              {"codec": (4, 20), "quadrature": (2, 40), "window": (2, 40), "history": (2, 40), "corners": (2, 40)},
-             (Setting(4, 80), Setting(7, 20))),
+             (Setting(4, 80), Setting(4, 80, window="1"), Setting(7, 20))),
         (Setting(1, 20), Setting(2, 20), Setting(1, 20, "bdf1"), Setting(1, 20, codec_tol=1e-2))),
     "sphere": Problem(
         "Sphere, nu = 0.3, sudden pressure", SPHERE.breathing_period(), "f (10 f^2 + 2 nodes)", "p0 a/(3K)",
