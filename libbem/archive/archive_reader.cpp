@@ -279,8 +279,8 @@ BodyForce Archive::load_body_force(const char* name) const {
   }
   for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
     const std::string group = initial_path(name, i);
-    const auto part = [&](const char* name) {
-      const std::vector<double> data = file_.read<double>(group + name, {n, 6});
+    const auto part = [&](const char* part_name) {
+      const std::vector<double> data = file_.read<double>(group + part_name, {n, 6});
       return RowMajor(Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(n), 6));
     };
     Eigen::MatrixXcd value = part("/real").cast<Complex>();

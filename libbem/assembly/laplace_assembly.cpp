@@ -73,9 +73,7 @@ void assemble_row(const Setup& setup, const VertexFans& fans, int i, LaplaceMatr
   }
   out.d.block<3, 3>(3 * i, 0) = d;
   out.q.block<3, 3>(3 * i, 0) = l + d * cross_matrix(mesh.vertices[i]).transpose().cast<Complex>();
-  for (int e = 0; e < 6; ++e)
-    m.col(e) -= d * (symmetric_matrix(Vector6::Unit(e)) * mesh.vertices[i]).cast<Complex>();
-  out.c.block<3, 6>(3 * i, 0) = m;
+  out.c.block<3, 6>(3 * i, 0) = m - d * symmetric_products(mesh.vertices[i]).cast<Complex>();
   for (const auto& [j, block] : fans.static_blocks(i, setup.kappa))
     out.h.block<3, 3>(3 * i, 3 * j) += block.cast<Complex>();
 }

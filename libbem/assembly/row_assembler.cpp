@@ -87,8 +87,6 @@ namespace {
 template <class T>
 void add_arm(const Vec3& x, BlockRow<T>& row) {
   const std::size_t stride = row.padded_lanes;
-  Eigen::Matrix<double, 3, 6> strained;
-  for (int e = 0; e < 6; ++e) strained.col(e) = symmetric_matrix(Vector6::Unit(e)) * x;
   const auto add = [&](AlignedVector<double>& out, const auto& factors) {
     const auto columns = static_cast<int>(factors.cols());
     for (int i = 0; i < 3; ++i)
@@ -99,7 +97,7 @@ void add_arm(const Vec3& x, BlockRow<T>& row) {
                 row.d[(3 * i + k) * stride + lane] * factors(k, j);
   };
   add(row.q, Mat3(cross_matrix(x).transpose()));
-  add(row.c, Eigen::Matrix<double, 3, 6>(-strained));
+  add(row.c, Eigen::Matrix<double, 3, 6>(-symmetric_products(x)));
 }
 
 }  // namespace

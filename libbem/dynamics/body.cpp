@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "dynamics/rotation.hpp"
+#include "kernels/tensors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -258,8 +259,7 @@ double Body::set_centrifugal() {
   for (int a = 0; a < stage_count_; ++a) {
     const Vec3 momentum = frame_stages_.rotation[a].transpose() * frame_stages_.angular_momentum[a];
     const Vec3 w = frame_.inverse_inertia() * momentum;
-    entries.col(a) << w.squaredNorm() - w[0] * w[0], -w[0] * w[1], -w[0] * w[2],
-        w.squaredNorm() - w[1] * w[1], -w[1] * w[2], w.squaredNorm() - w[2] * w[2];
+    entries.col(a) = symmetric_entries(w.squaredNorm() * Mat3::Identity() - w * w.transpose());
   }
   const double largest = strain * entries.cwiseAbs().maxCoeff();
   if (!(largest > kNegligible)) entries.setZero();

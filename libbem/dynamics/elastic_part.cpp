@@ -47,7 +47,7 @@ ElasticPart::ElasticPart(const ElasticSystem& system, const NodalTractions* trac
 template <class F>
 void ElasticPart::for_each_input(const std::vector<PrescribedLoad>& loads, const F& f) const {
   for (const PrescribedLoad& p : loads) f(p.load.columns(), p.stages);
-  if (centrifugal_) f(*centrifugal_, centrifugal_stages_);
+  if (!centrifugal_stages_.isZero(0)) f(*centrifugal_, centrifugal_stages_);
 }
 
 Eigen::MatrixXd ElasticPart::history_sums(const std::vector<PrescribedLoad>& loads) const {

@@ -62,20 +62,31 @@ inline Mat3 symmetric_matrix(const Vector6& b) {
   return m;
 }
 
+/// The six numbers of a symmetric matrix.
+inline Vector6 symmetric_entries(const Mat3& m) {
+  Vector6 b;
+  b << m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2);
+  return b;
+}
+
+/// B x by the six numbers of B: column e is symmetric_matrix(unit vector e) * x.
+inline Eigen::Matrix<double, 3, 6> symmetric_products(const Vec3& x) {
+  Eigen::Matrix<double, 3, 6> columns;
+  for (int e = 0; e < 6; ++e) columns.col(e) = symmetric_matrix(Vector6::Unit(e)) * x;
+  return columns;
+}
+
 /// Kernel m* of the body force rho B y, B symmetric [s^2/m] (M7); the full kernel is
 /// m*(B) - d* B (x - xbar). Column e: B = symmetric_matrix(unit vector e).
 template <class Scalar>
 Eigen::Matrix<Scalar, 3, 6> strain_kernel(const PairGeometry& g, const RadialValues<Scalar>& f,
                                           double c2) {
   const double scale = g.r / (4 * kPi * c2 * c2);
-  Eigen::Matrix<Scalar, 3, 6> out;
-  for (int e = 0; e < 6; ++e) {
-    const Mat3 b = symmetric_matrix(Vector6::Unit(e));
-    const Scalar dilation = f[kRadialC0] - f[kRadialM0] + f[kRadialF];  // kappa W(z1) - W(z2)
-    out.col(e) = -(scale * g.n.dot(b * g.h) * f[kRadialF]) * g.h -
-                 (scale * b.trace() * dilation) * g.n + (scale * f[kRadialM0]) * (b * g.n);
-  }
-  return out;
+  const Scalar dilation = f[kRadialC0] - f[kRadialM0] + f[kRadialF];  // kappa W(z1) - W(z2)
+  const Vector6 trace = symmetric_entries(Mat3::Identity());
+  return (scale * f[kRadialM0]) * symmetric_products(g.n) -
+         (scale * f[kRadialF]) * (g.h * (g.n.transpose() * symmetric_products(g.h))) -
+         (scale * dilation) * (g.n * trace.transpose());
 }
 
 }  // namespace bem

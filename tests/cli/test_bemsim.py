@@ -37,6 +37,28 @@ class OtherActions(SimulationCase):
         self.scene["bodies"][0]["frame"] = "moving"
         self.assertEqual(self.check().stderr, "")
 
+    def test_rotation_as_fast_as_vibrations_is_warned_of(self):
+        body = self.scene["bodies"][0]
+        body["angular_velocity"] = [0, 0, 5]
+        self.assertEqual(self.check().stderr, "")
+        body["angular_velocity"] = [0, 0, 40]
+        self.assertIn('say "centrifugal": false', self.check().stderr)
+        body["centrifugal"] = False
+        self.assertEqual(self.check().stderr, "")
+
+    def test_rotation_stretches_unless_it_is_switched_off(self):
+        self.scene["bodies"][0].update(angular_velocity=[0, 0, 5], velocity=[0, 0, 0])
+        widths = []
+        for stretched in (True, False):
+            self.scene["bodies"][0]["centrifugal"] = stretched
+            self.simulate("--force")
+            with self.trajectory() as file:
+                ball = file["bodies/ball"]
+                offsets = ball["positions"][-1] - ball["frame/translation"][-1]
+            widths.append(np.linalg.norm(offsets[:, :2], axis=1).max())
+        self.assertGreater(widths[0], 1.0002 * widths[1])
+        self.assertLess(widths[0], 1.001 * widths[1])
+
     def test_schema_is_json(self):
         schema = json.loads(program("bemsim", "--print-schema").stdout)
         self.assertEqual(schema["type"], "object")

@@ -2,6 +2,7 @@
 // tumble, and turned as Euler's equations say. Printed figures are quoted in docs/accuracy.md,
 // "Rotating bodies".
 #include "dynamics/rotation.hpp"
+#include "kernels/tensors.hpp"
 #include "support/simulate.hpp"
 
 #include <cstdio>
@@ -161,9 +162,8 @@ TEST_CASE("a stiff body that tumbles deforms as its inertia forces say") {
                    (frame.rotation().transpose() * frame.angular_momentum());
     lowest = std::min(lowest, w[1]);
     if (n < steps / 4) continue;  // the sudden start has died away
-    const Mat3 b = w.squaredNorm() * Mat3::Identity() - w * w.transpose();
-    Vector6 entries;
-    entries << b(0, 0), b(0, 1), b(0, 2), b(1, 1), b(1, 2), b(2, 2);
+    const Vector6 entries =
+        symmetric_entries(w.squaredNorm() * Mat3::Identity() - w * w.transpose());
     const Eigen::VectorXd v = deformation(body.geometry, columns * entries);
     size = std::max(size, v.norm());
     difference = std::max(difference, (u - v).norm());
