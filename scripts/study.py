@@ -40,7 +40,7 @@ def arguments():
     parser.add_argument("--schemes", default=",".join(SCHEMES), help="comma-separated (%(default)s)")
     parser.add_argument("--force", action="store_true", help="do again what is there")
     parser.add_argument("--update-docs", action="store_true", help="tables and plots into docs")
-    parser.add_argument("--reference", action="store_true", help="with calculix: prints the beam's modes, no study")
+    parser.add_argument("--reference", action="store_true", help="with calculix: prints what closed_forms.Beam has of it, no study")
     options = parser.parse_args()
     for name in options.problems:
         if name not in [*PROBLEMS, "calculix", "tables"]:

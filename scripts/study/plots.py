@@ -7,7 +7,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator  # noqa: E402
 
 from . import measures  # noqa: E402
 from .problems import PROBLEMS  # noqa: E402
-from .tables import SCENES, TITLES, of_scene, per_second, plain  # noqa: E402
+from .tables import SCENES, TITLES, of_scene, peak_memory, per_second, plain  # noqa: E402
 
 COLOURS = {"bdf1": "#999999", "theta:0.5": "#56b4e9", "theta:0.75": "#0072b2", "bdf2": "#e69f00", "radau2": "#d55e00",
            "radau3": "#009e73"}
@@ -38,14 +38,15 @@ def front(axes, points, colour):
 
 
 def draw_scene(found, scene, path):
-    """Left precomputation, right simulation; colours are schemes, markers meshes, the line is the front."""
+    """Precomputation, simulation, memory; colours are schemes, markers meshes, the line is the front."""
     records = plain(of_scene(found, scene))
     if not records:
         return False
     meshes = sorted({r["mesh"] for r in records.values()})
-    figure, panels = plt.subplots(1, 2, figsize=(7, 2.9), sharey=True)
+    figure, panels = plt.subplots(1, 3, figsize=(9.5, 2.9), sharey=True)
     for axes, cost, label in ((panels[0], lambda r: r["precompute_cpu"], "precomputation [CPU s]"),
-                              (panels[1], per_second, "simulation [CPU s per simulated s]")):
+                              (panels[1], per_second, "simulation [CPU s per simulated s]"),
+                              (panels[2], lambda r: peak_memory(r) / 1e6, "memory [MB]")):
         front(axes, [(cost(r), r["error"]) for r in records.values()], "black")
         for r in records.values():
             axes.plot(cost(r), r["error"], MARKERS[meshes.index(r["mesh"]) % len(MARKERS)], markersize=4, zorder=2,
@@ -58,7 +59,7 @@ def draw_scene(found, scene, path):
                for s in dict.fromkeys(r["scheme"] for r in records.values())]
     handles += [plt.Line2D([], [], color="#444444", marker=MARKERS[k % len(MARKERS)], linestyle="", markersize=4,
                            label=f"{nodes[m]} nodes") for k, m in enumerate(meshes)]
-    panels[1].legend(handles=handles, fontsize=6.5, loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
+    panels[2].legend(handles=handles, fontsize=6.5, loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
     save(figure, path)
     return True
 
@@ -74,7 +75,8 @@ def draw_calculix(found, path):
                 plain(of_scene(found, case)).values()]
         steps = [(share * r["simulate_cpu"], r["error"]) for r in plain(of_scene(found, case)).values()]
         sets = [("bem, all", ours, COLOURS["radau2"], "o"), ("bem, simulation alone", steps, COLOURS["bdf2"], "^")]
-        for element, colour in (("C3D20R", COLOURS["theta:0.75"]), ("C3D8I", COLOURS["theta:0.5"]), ("modes", "#009e73")):
+        for element, colour in (("C3D20R", COLOURS["theta:0.75"]), ("C3D8I", COLOURS["theta:0.5"]), ("C3D10", "#cc79a7"),
+                                ("modes", "#009e73")):
             sets.append((f"CalculiX {element}", [(r["cpu"], r["error"]) for r in found["calculix"].values()
                                                  if r["case"] == case and r["element"] == element], colour, "s"))
         for label, points, colour, marker in sets:

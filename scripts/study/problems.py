@@ -8,9 +8,10 @@ import numpy as np
 
 from . import measures, meshes
 from .closed_forms import Beam, Rod, Slide, Sphere, Tumbling
-from .settings import Plan, Setting
+from .settings import BASE, Plan, Setting
 
 ROD, SPHERE, BEAM, TUMBLING, SLIDE = Rod(), Sphere(), Beam(), Tumbling(), Slide()
+SOFT, HARD = Sphere(1e6, 0.0), Sphere(3e5, 0.45)  # the sphere with other Poisson ratios
 
 
 @dataclasses.dataclass(frozen=True)
@@ -81,36 +82,75 @@ def rod_scene(fixed):
     return {"body": body}
 
 
-def measure_sphere(run):
-    radii = np.linalg.norm(run.positions, axis=2)
-    return compared((radii - radii[0]).mean(axis=1) / SPHERE.static, SPHERE.pressed(run.times) / SPHERE.static)
+def measure_sphere(sphere):
+    def measure(run):
+        radii = np.linalg.norm(run.positions, axis=2)
+        return compared((radii - radii[0]).mean(axis=1) / sphere.static, sphere.pressed(run.times) / sphere.static)
+    return measure
 
 
-MODE_PERIOD = 2 * math.pi / SPHERE.quadrupole()
-PULSE = 4 * math.pi / SPHERE.quadrupole(1)  # a Hann pulse as long as this does not excite the overtone
+def hann(length):
+    """Profile of a pulse; it does not excite vibrations with the period length/2."""
+    return [[length * k / 64, 0.5 - 0.5 * math.cos(2 * math.pi * k / 64)] for k in range(65)]
 
 
-def mode_scene():
-    pulse = [[PULSE * k / 64, 0.5 - 0.5 * math.cos(2 * math.pi * k / 64)] for k in range(65)]
+@dataclasses.dataclass(frozen=True)
+class FreeMode:
+    """A mode of vibration of a body that a pulse has set ringing: its angular frequency, the length of the pulse,
+    and the weights of the displacements (N, 3) of vertices at rest positions (N, 3) that it is observed with."""
+    frequency: float
+    pulse: float
+    weights: typing.Callable
+
+    @property
+    def period(self):
+        return 2 * math.pi / self.frequency
+
+    def periods(self):
+        """Of the mode that a run takes: the pulse, three to fit and some to spare."""
+        return self.pulse / self.period + 3.5
+
+    def measure(self, run):
+        """Error of the free motion exp((i w - d) t) over two periods, relative to its amplitude."""
+        rest = (run.positions[0] - run.translations[0]) @ run.rotations[0]
+        body = np.einsum("nji,nkj->nki", run.rotations, run.positions - run.translations[:, None, :])
+        dt = run.times[1] - run.times[0]
+        series = np.einsum("nki,ki->n", body - rest, self.weights(rest))
+        series = series[int(math.ceil(self.pulse / dt)) + 1:][:3 * run.steps]
+        z = measures.factor_of_ringing(series)
+        t = np.arange(2 * run.steps + 1)
+        off = np.abs(np.exp((np.log(z) - 1j * self.frequency * dt) * t) - 1)
+        return {"error": measures.rms(off), "frequency": float(np.angle(z) / dt / self.frequency - 1),
+                "energy": float(abs(z)**(2 * self.period / dt)), "series": (series / np.max(np.abs(series))).tolist()}
+
+
+def quadrupole_weights(rest):
+    radii = np.linalg.norm(rest, axis=1)
+    return (1.5 * (rest[:, 2] / radii)**2 - 0.5)[:, None] * rest / radii[:, None]
+
+
+def bending_weights(rest):
+    """Like the first bending mode of a free beam: a polynomial that rigid motions are orthogonal to."""
+    return np.stack([0 * rest[:, 0], 0 * rest[:, 0], 12 * rest[:, 0]**2 - 1], axis=1)
+
+
+QUADRUPOLE = FreeMode(SPHERE.quadrupole(), 4 * math.pi / SPHERE.quadrupole(1), quadrupole_weights)
+BENDING = FreeMode(2 * math.pi * BEAM.FREE[0], 2 / BEAM.FREE[1], bending_weights)
+
+
+def pulled_poles():
     cap = 0.55 * SPHERE.RADIUS
     return {"body": {"tractions": [
-        {"select": {"box": {"min": [-9, -9, low], "max": [9, 9, high]}}, "pressure": -1000, "profile": pulse}
-        for low, high in ((cap, 9), (-9, -cap))]}}
+        {"select": {"box": {"min": [-9, -9, low], "max": [9, 9, high]}}, "pressure": -1000,
+         "profile": hann(QUADRUPOLE.pulse)} for low, high in ((cap, 9), (-9, -cap))]}}
 
 
-def measure_mode(run):
-    """Error of the free motion exp((i w - d) t) over two periods, relative to its amplitude."""
-    rest = np.array([run.rotations[0].T @ x for x in run.positions[0] - run.translations[0]])
-    body = np.einsum("nji,nkj->nki", run.rotations, run.positions - run.translations[:, None, :])
-    radial = np.einsum("nki,ki->nk", body - rest, rest / np.linalg.norm(rest, axis=1)[:, None])
-    weights = 1.5 * (rest[:, 2] / np.linalg.norm(rest, axis=1))**2 - 0.5
-    dt = run.times[1] - run.times[0]
-    series = (radial @ weights / np.sum(weights**2))[int(math.ceil(PULSE / dt)) + 1:][:3 * run.steps]
-    z = measures.factor_of_ringing(series)
-    exact, t = SPHERE.quadrupole(), np.arange(2 * run.steps + 1)
-    off = np.abs(np.exp((np.log(z) - 1j * exact * dt) * t) - 1)
-    return {"error": measures.rms(off), "frequency": float(np.angle(z) / dt / exact - 1),
-            "energy": float(abs(z)**(2 * MODE_PERIOD / dt)), "series": (series / np.max(np.abs(series))).tolist()}
+def bent_beam():
+    """The middle half is pushed up, the quarters at the ends down."""
+    parts = ((-9, -0.249, -1000), (-0.251, 0.251, 1000), (0.249, 9, -1000))
+    return {"body": {"tractions": [
+        {"select": {"box": {"min": [low, -9, 0.0999], "max": [high, 9, 9]}, "normal": [0, 0, 1], "normal_tolerance_deg": 10},
+         "traction": [0, 0, force], "profile": hann(BENDING.pulse)} for low, high, force in parts]}}
 
 
 def measure_beam(run):
@@ -137,6 +177,18 @@ def measure_slide(run):
     return {**compared(x / SLIDE.WAY, exact / SLIDE.WAY), "way": float(way), "time": float(time)}
 
 
+def beam_shape(cells):
+    return box((BEAM.LENGTH, BEAM.WIDTH, BEAM.WIDTH), (5 * cells, cells, cells))
+
+
+def pressed_sphere(sphere, title, scene, plan, small):
+    return Problem(
+        title, sphere.breathing_period(), "f (10 f^2 + 2 nodes)", "p0 a/(3K)",
+        lambda f: meshes.geodesic_sphere(f, sphere.RADIUS), material(sphere.DENSITY, sphere.shear, sphere.poisson),
+        {scene: ({"body": {"tractions": [{"select": "all", "pressure": sphere.LOAD}]}}, measure_sphere(sphere))},
+        plan, small)
+
+
 PROBLEMS = {
     "rod": Problem(
         "Rod, nu = 0, sudden end load", ROD.PERIOD, "cells across", "p0 L/E",
@@ -144,26 +196,38 @@ PROBLEMS = {
         {"rod-fixed": (rod_scene(True), measure_rod(True)), "rod-free": (rod_scene(False), measure_rod(False))},
         Plan((((1, 2), (20, 40, 80)), ((4,), (20, 40))),
              {"codec": (4, 20), "quadrature": (2, 40), "window": (2, 40), "history": (2, 40), "corners": (2, 40)},
-             (Setting(4, 80), Setting(4, 80, window="1"), Setting(7, 20))),
+             (Setting(4, 80), Setting(4, 80, window="1"), Setting(6, 80), Setting(7, 20))),
         (Setting(1, 20), Setting(2, 20), Setting(1, 20, "bdf1"), Setting(1, 20, codec_tol=1e-2))),
-    "sphere": Problem(
-        "Sphere, nu = 0.3, sudden pressure", SPHERE.breathing_period(), "f (10 f^2 + 2 nodes)", "p0 a/(3K)",
-        lambda f: meshes.geodesic_sphere(f, SPHERE.RADIUS), material(SPHERE.DENSITY, SPHERE.shear, SPHERE.poisson),
-        {"sphere": ({"body": {"tractions": [{"select": "all", "pressure": SPHERE.LOAD}]}}, measure_sphere)},
+    "sphere": pressed_sphere(
+        SPHERE, "Sphere, nu = 0.3, sudden pressure", "sphere",
         Plan((((2, 4), (6, 9, 12)),),
              {"codec": (4, 6), "quadrature": (2, 9), "window": (2, 9), "history": (2, 9)},
              (Setting(2, 18), Setting(4, 18), Setting(6, 18), Setting(10, 6))),
         (Setting(2, 6), Setting(2, 6, "bdf2"))),
+    "sphere-0": pressed_sphere(
+        SOFT, "Sphere, nu = 0, sudden pressure", "sphere-0",
+        Plan((), more=tuple(Setting(m, n, s) for m in (2, 4) for n in (9, 18) for s in ("bdf2", BASE))),
+        (Setting(2, 9),)),
+    "sphere-45": pressed_sphere(
+        HARD, "Sphere, nu = 0.45, sudden pressure", "sphere-45",
+        Plan((), more=tuple(Setting(m, n, s) for m in (2, 4) for n in (6, 9) for s in ("bdf2", BASE))),
+        (Setting(2, 6),)),
     "mode": Problem(
-        "Sphere, free mode S2", MODE_PERIOD, "f (10 f^2 + 2 nodes)", "amplitude",
+        "Sphere, free mode S2", QUADRUPOLE.period, "f (10 f^2 + 2 nodes)", "amplitude",
         lambda f: meshes.geodesic_sphere(f, SPHERE.RADIUS), material(SPHERE.DENSITY, SPHERE.shear, SPHERE.poisson),
-        {"mode": (mode_scene(), measure_mode)},
-        Plan((((2,), (10, 20, 40)), ((4,), (10, 20))), {"window": (2, 20), "history": (2, 20)}),
-        (Setting(2, 10), Setting(2, 10, "bdf1")), periods=PULSE / MODE_PERIOD + 3.5),
+        {"mode": (pulled_poles(), QUADRUPOLE.measure)},
+        Plan((((2,), (10, 20, 40)), ((4,), (10, 20))), {"window": (2, 20), "history": (2, 20)},
+             (Setting(6, 10), Setting(6, 20)), most_steps={"radau3": 20}),
+        (Setting(2, 10), Setting(2, 10, "bdf1")), periods=QUADRUPOLE.periods()),
+    "beam-free": Problem(
+        "Beam that nothing holds, first bending mode", BENDING.period, "cells across", "amplitude",
+        beam_shape, material(BEAM.DENSITY, BEAM.SHEAR, BEAM.POISSON), {"beam-free": (bent_beam(), BENDING.measure)},
+        Plan((((2,), (20, 40)), ((4,), (20,))), {"window": (4, 40)}, (Setting(4, 40), Setting(6, 20), Setting(6, 40)),
+             most_steps={"radau3": 20}),
+        (Setting(1, 20),), periods=BENDING.periods()),
     "beam": Problem(
         "Beam held at one end, sudden gravity", BEAM.period(), "cells across", "deflection at rest",
-        lambda n: box((BEAM.LENGTH, BEAM.WIDTH, BEAM.WIDTH), (5 * n, n, n)),
-        material(BEAM.DENSITY, BEAM.SHEAR, BEAM.POISSON),
+        beam_shape, material(BEAM.DENSITY, BEAM.SHEAR, BEAM.POISSON),
         {"beam": ({"gravity": [0, 0, -BEAM.GRAVITY], "body": {"fixed": [slab(0, -BEAM.LENGTH / 2)]}}, measure_beam)},
         Plan((((2, 4), (20, 40, 80)),),
              {"codec": (4, 40), "quadrature": (2, 40), "window": (4, 40), "history": (2, 40), "corners": (4, 40)},

@@ -21,13 +21,13 @@ class Failed(Exception):
 
 
 def spent(command, folder, environment=None):
-    """Runs a program; returns its exit code and CPU seconds (user and system)."""
+    """Runs a program; returns its exit code, CPU seconds (user and system) and peak memory [bytes]."""
     with open(folder / "log.txt", "ab") as log:
         process = subprocess.Popen([str(c) for c in command], cwd=folder, stdout=log, stderr=log,
                                    env={**os.environ, **(environment or {})})
         _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
-    return process.returncode, usage.ru_utime + usage.ru_stime
+    return process.returncode, usage.ru_utime + usage.ru_stime, 1024 * usage.ru_maxrss
 
 
 class Results:
@@ -56,7 +56,7 @@ class Runner:
         return Results(self.out / f"{name}.json")
 
     def program(self, name, *arguments):
-        code, cpu = spent([self.binaries / name, *arguments], self.out)
+        code, cpu, _ = spent([self.binaries / name, *arguments], self.out)
         if code not in (0, DIVERGED):
             tail = (self.out / "log.txt").read_text(errors="replace").splitlines()[-5:]
             raise Failed("\n".join([f"{name} {' '.join(map(str, arguments))}: exit code {code}", *tail]))

@@ -45,15 +45,16 @@ class Setting:
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
-    """What is run of a problem: all schemes for `grids` of (meshes, steps); single factors about a base,
-    {sweep: (mesh, steps)}; and more settings."""
+    """What is run of a problem: all schemes for `grids` of (meshes, steps), but those in `most_steps` only up to
+    so many; single factors about a base, {sweep: (mesh, steps)}; and more settings."""
     grids: tuple
     sweeps: dict = dataclasses.field(default_factory=dict)
     more: tuple = ()
+    most_steps: dict = dataclasses.field(default_factory=dict)
 
     def settings(self, schemes):
         found = [Setting(m, s, scheme) for meshes, steps in self.grids for m in meshes for s in steps
-                 for scheme in schemes]
+                 for scheme in schemes if s <= self.most_steps.get(scheme, s)]
         for name in self.sweeps:
             found += self.swept(name)
         return sorted(dict.fromkeys([*found, *self.more]), key=lambda s: (s.mesh, s.steps))  # cheap ones first

@@ -9,7 +9,8 @@ from .settings import BASE, Setting
 
 SCENES = {scene: name for name, problem in PROBLEMS.items() for scene in problem.scenes}
 TITLES = {"rod-fixed": "Rod, one end fixed", "rod-free": "Rod, free", "sphere": "Sphere under pressure",
-          "mode": "Free mode S2 of a sphere", "beam": "Held beam under gravity", "tumble": "Tumbling box",
+          "sphere-0": "Sphere under pressure, ν = 0", "sphere-45": "Sphere under pressure, ν = 0.45",
+          "mode": "Free mode S2 of a sphere", "beam": "Held beam under gravity", "beam-free": "Free beam, first bending mode", "tumble": "Tumbling box",
           "slide": "Sliding block"}
 
 
@@ -37,6 +38,11 @@ def per_second(record):
     return record["simulate_cpu"] / record["simulated"]
 
 
+def peak_memory(record):
+    """[bytes] of both programs, the larger one."""
+    return max(record["precompute_memory"], record["simulate_memory"])
+
+
 def of_scene(found, scene):
     """{key without the scene: record}"""
     records = found.get(SCENES[scene], {})
@@ -58,7 +64,7 @@ def table_front(found, scene):
     runs = [(r["precompute_cpu"] + r["simulate_cpu"], r["error"], key, r)
             for key, r in of_scene(found, scene).items() if r["error"] is not None]
     rows = [[number(e, 3), key, r["nodes"], number(r["precompute_cpu"]), number(per_second(r)),
-             megabytes(r["archive_bytes"]), megabytes(max(r["precompute_memory"], r["simulate_memory"]))]
+             megabytes(r["archive_bytes"]), megabytes(peak_memory(r))]
             for _, e, key, r in measures.pareto(runs)]
     return table(["error", "setting", "nodes", "precompute [CPU s]", "simulation [CPU s per s]", "archive [MB]",
                   "memory [MB]"], rows)
@@ -222,15 +228,15 @@ def table_calculix(found):
     rows = []
     for case in ("beam", "rod-fixed"):
         ours = [(r["precompute_cpu"] + r["simulate_cpu"] * (2 / PROBLEMS[SCENES[case]].periods), r["error"], "bem", key,
-                 3 * r["nodes"], r["simulate_cpu"] / r["simulated"]) for key, r in plain(of_scene(found, case)).items()]
-        theirs = [(r["cpu"], r["error"], "CalculiX", key.split(": ")[1], 3 * r["nodes"], r["cpu"] / r["simulated"])
-                  for key, r in found.get("calculix", {}).items() if r["case"] == case]
+                 3 * r["nodes"], r["simulate_cpu"] / r["simulated"], peak_memory(r)) for key, r in plain(of_scene(found, case)).items()]
+        theirs = [(r["cpu"], r["error"], "CalculiX", key.split(": ")[1], 3 * r["nodes"], r["cpu"] / r["simulated"],
+                   r["memory"]) for key, r in found.get("calculix", {}).items() if r["case"] == case]
         stepped, modal = ([r for r in theirs if r[3].startswith("modes") == modes] for modes in (False, True))
         for runs in (measures.pareto(ours), measures.pareto(stepped), measures.pareto(modal)):
-            rows += [[TITLES[case], program, setting, unknowns, number(e, 3), number(cost, 3), number(later, 3)]
-                     for cost, e, program, setting, unknowns, later in runs]
+            rows += [[TITLES[case], program, setting, unknowns, number(e, 3), number(cost, 3), number(later, 3),
+                      megabytes(memory)] for cost, e, program, setting, unknowns, later, memory in runs]
     return table(["problem", "program", "setting", "unknowns", "error", "two periods, everything [CPU s]",
-                  "another second of motion [CPU s]"], rows)
+                  "another second of motion [CPU s]", "memory [MB]"], rows)
 
 
 def remark(found):

@@ -94,16 +94,23 @@ class Measures(unittest.TestCase):
 
 class CalculiX(unittest.TestCase):
     def test_elements_fill_the_box(self):
-        for quadratic, count, per in ((True, 2 * 3 * 2 * 2 + 20, 20), (False, 12, 8)):
-            nodes, elements = calculix.block((2, 1, 1), (2, 1, 1), quadratic)
+        for element, count, per in (("C3D20R", 32, 20), ("C3D8I", 12, 8), ("C3D10", 45, 10)):
+            nodes, elements = calculix.block((2, 1, 1), (2, 1, 1), element)
+            self.assertEqual(len(nodes), count)
             self.assertEqual({len(e) for e in elements}, {per})
             self.assertEqual({n for e in elements for n in e}, set(nodes))
+            corners, volume = calculix.corner_count(element), 0
             for e in elements:
-                a, b, d, h = (np.array(nodes[e[k]]) for k in (0, 1, 3, 4))
+                a, b, d, h = (np.array(nodes[e[k]]) for k in ((0, 1, 3, 4) if corners == 8 else (0, 1, 2, 3)))
+                volume += np.dot(np.cross(b - a, d - a), h - a) / (1 if corners == 8 else 6)
                 self.assertGreater(np.dot(np.cross(b - a, d - a), h - a), 0)
-                if quadratic:
-                    np.testing.assert_allclose(nodes[e[8]], (a + b) / 2)
-        self.assertEqual(len(calculix.block((2, 1, 1), (2, 1, 1), True)[0]), 32)
+                for k, (i, j) in enumerate(calculix.EDGES[corners], corners):
+                    if per in (10, 20):
+                        np.testing.assert_allclose(nodes[e[k]], (np.array(nodes[e[i]]) + nodes[e[j]]) / 2)
+            self.assertAlmostEqual(volume, 2)
+            end = calculix.faces_at(nodes, elements, element, 2)
+            self.assertEqual([f for _, f in end if corners == 8], [4] if corners == 8 else [])
+            self.assertEqual(len(end), 1 if corners == 8 else 2)
 
     def test_no_line_has_more_than_sixteen_entries(self):
         content, nodes = calculix.dynamic_input("beam", "C3D20R", (5, 1, 1), 0.01, 0.1)
