@@ -407,12 +407,16 @@ void Body::end_step() {
   if (elastic_) {
     if (!end_known_) end_displacement_ = elastic_->end_displacement(loads_, nodal_forces());
     const auto corrected = elastic_->end_step();
-    if (corrected) move_frame_by(corrected->acceleration);
-    displacement_ = corrected ? corrected->displacement : end_displacement_;
+    if (corrected) {
+      move_frame_by(corrected->acceleration);
+      end_displacement_ = corrected->displacement;
+    }
+    check_end();
+    displacement_ = end_displacement_;
     for (PrescribedLoad& p : loads_) p.history.push(p.stages);
   }
+  if (is_rigid()) check_end();
   frame_.advance(frame_stages_);
-  check_state();
 }
 
 void Body::visit_state(StateArchive& state) {

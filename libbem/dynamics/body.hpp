@@ -101,7 +101,7 @@ class Body {
   /// World positions of all nodes at the end of the step that update() has computed.
   std::vector<Vec3> end_positions();
   /// Takes the end of the step as the new state. Throws ErrorCode::numerical if it is not finite,
-  /// or deformed to a hundred times the body's size.
+  /// or deformed to a hundred times the body's size; place and momentum remain those before it.
   void end_step();
 
   const std::string& name() const { return spec_.name; }
@@ -128,7 +128,7 @@ class Body {
 
  private:
   bool is_quasistatic() const { return model().kind == ModelKind::quasistatic; }
-  void check_state() const;
+  void check_end() const;
   void check_loadable(const std::vector<int>& nodes) const;
   double stage_time(int stage) const;
   double set_centrifugal();

@@ -60,14 +60,17 @@ std::vector<Vec3> Body::tractions() const {
 }
 
 /// Stops motions that have no meaning any more.
-void Body::check_state() const {
+void Body::check_end() const {
   constexpr double kMostDeformation = 100;  // of the body's size
-  const std::string when = " at t = " + std::to_string(frame_.time()) + " s";
-  if (!displacement_.allFinite() || !frame_.translation().allFinite() ||
-      !frame_.rotation().allFinite())
+  const std::string when = " at t = " + std::to_string(stage_time(stage_count_ - 1)) + " s";
+  const RigidFrame::Stages& s = frame_stages_;
+  if (!end_displacement_.allFinite() || !s.translation.back().allFinite() ||
+      !s.rotation.back().allFinite() || !s.velocity.back().allFinite() ||
+      !s.angular_momentum.back().allFinite())
     throw Error(ErrorCode::numerical,
                 "body \"" + spec_.name + "\" has non-finite positions" + when);
-  const double most = displacement_.cwiseAbs().maxCoeff() / model().geometry.extent;
+  if (is_rigid()) return;
+  const double most = end_displacement_.cwiseAbs().maxCoeff() / model().geometry.extent;
   if (most > kMostDeformation)
     throw Error(
         ErrorCode::numerical,

@@ -1,6 +1,7 @@
 #include "model/growth.hpp"
 
 #include <algorithm>
+#include <complex>
 #include <numeric>
 #include <random>
 
@@ -89,6 +90,7 @@ class KrylovSpace {
     GrowthEstimate out;
     Eigen::Index i = 0;
     out.factor = solver.eigenvalues().cwiseAbs().maxCoeff(&i);
+    out.frequency = std::abs(std::arg(solver.eigenvalues()[i])) / (2 * kPi);
     out.residual =
         std::abs(restricted_(m, m - 1) * solver.eigenvectors().col(i).normalized()[m - 1]);
     return out;

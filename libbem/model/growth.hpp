@@ -5,9 +5,10 @@
 namespace bem {
 
 struct GrowthEstimate {
-  double factor = 0;    ///< largest growth factor per step of a free, unloaded body
-  double residual = 0;  ///< of the eigenvalue it comes from
-  int steps = 0;        ///< steps of the recursion that were taken
+  double factor = 0;     ///< largest growth factor per step of a free, unloaded body
+  double frequency = 0;  ///< of the motion that grows so [periods per step]
+  double residual = 0;   ///< of the eigenvalue it comes from
+  int steps = 0;         ///< steps of the recursion that were taken
 };
 
 /// Largest growth factor per step of the free recursion with removal of rigid motion: the spectral

@@ -59,7 +59,9 @@ BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
   model.window = options.window > 0 ? options.window : 1;
   if (options.measure_growth && model.has_history()) {
     if (progress) progress("growth factor", 0);
-    model.report.growth = growth_factor(model).factor;
+    const GrowthEstimate growth = growth_factor(model);
+    model.report.growth = growth.factor;
+    model.report.growth_frequency = growth.frequency / options.discretisation.dt;
     if (options.window == 0) model.window = automatic_window(model);
   }
   return model;

@@ -214,6 +214,36 @@ class Statistics(SimulationCase):
             self.assertTrue(0 < body["window"] <= 1)
             self.assertTrue(0 < body["growth"] < 2)
 
+    def test_vibrations_of_a_held_body_that_grow_are_warned_of(self):
+        material = {"name": "gum", "density": 1000, "shear_modulus": 1e7, "poisson_ratio": 0.3}
+        (self.folder / "gum.json").write_text(json.dumps(material))
+        program("bemshape", "box", "--size", 1, 0.2, 0.2, "--divisions", 10, 2, 2, "-o", self.folder / "beam.obj")
+        dt = 1 / 5.0969 / 30
+        held = {"name": "beam", "archive": "beam.bem", "fixed": [{"box": {"min": [-1, -1, -1], "max": [-0.49, 1, 1]}}]}
+        self.scene.update(time_step=dt, duration=120 * dt, gravity=[0, 0, -1], bodies=[held])
+
+        def growth(*options):
+            """What --stats has of it, the warnings, and the amplitude of the second half over that of the first."""
+            program("bemprecomp", self.folder / "beam.obj", self.folder / "gum.json", "-o", self.folder / "beam.bem",
+                    "--dt", repr(dt), "--quiet", "--force", *options)
+            warnings = self.simulate("--force", "--quiet", "--stats", self.folder / "s.json").stderr
+            stats = json.loads((self.folder / "s.json").read_text())
+            self.assertEqual(len(stats["warnings"]), len(warnings.splitlines()))
+            with self.trajectory() as file:
+                x = file["bodies/beam/positions"][:, :, 2].mean(axis=1)
+            return stats["bodies"][0]["growing_vibration"], warnings, np.ptp(x[60:]) / np.ptp(x[:60])
+
+        found, warning, ratio = growth()
+        self.assertGreater(ratio, 1.2)
+        self.assertAlmostEqual(found["growth"]**60 / ratio, 1, 1)
+        self.assertAlmostEqual(found["frequency"] / 5.2, 1, 1)
+        self.assertIn('the body "beam" vibrates with 5.', warning)
+        window, damping = re.search("--window ([0-9.e-]+), or with --damping ([a-z_]+:[0-9.e-]+)", warning).groups()
+        for cure in (("--window", window), ("--damping", damping)):
+            found, warning, ratio = growth(*cure)
+            self.assertEqual(warning, "", cure)
+            self.assertAlmostEqual(ratio, 1, 1, cure)
+
     def test_bad_path_is_noticed_before_the_run(self):
         done = self.simulate("--stats", self.folder / "missing" / "stats.json", expect=6)
         self.assert_error(done, "missing")

@@ -23,10 +23,23 @@ std::string short_text(double value) {
   return text.str();
 }
 
+/// The material damping that takes from the motion that grows what it gains, w^2 T/2 = rate, and a
+/// tenth more, besides the damping there is; as an option of bemprecomp.
+std::string damping_text(const BodyModel& model) {
+  const double rate = std::log(model.report.growth) / model.discretisation.dt;
+  const double angular = 2 * kPi * model.report.growth_frequency;
+  const double time = model.discretisation.damping.time + 2.2 * rate / (angular * angular);
+  std::ostringstream text;
+  text << "--damping kelvin_voigt:" << std::setprecision(2) << time
+       << ", which takes less of what is slower than " << model.report.growth_frequency << " Hz";
+  return text.str();
+}
+
 /// Empty if motions do not grow noticeably.
 std::string growth_warning(const BodyModel& model) {
   const double growth = model.report.growth, left = growth * model.window;
-  const std::string cure = "a larger --dt, a smaller theta, or a finer mesh";
+  std::string cure = "a larger --dt, a smaller theta, or a finer mesh";
+  if (model.report.growth_frequency > 0) cure += ", or " + damping_text(model);
   if (left > kNoticeableGrowth)
     return "motions grow by a factor of " + short_text(left) +
            " per step; --window auto removes that, better are " + cure;

@@ -88,7 +88,7 @@ void check_finite(const Body& body, const BodyFrame& frame, double time) {
 class Run {
  public:
   Run(const Plan& plan, ArchiveSource& source, const Options& options, Log& log)
-      : plan_(plan), options_(options), log_(log), bar_(log) {
+      : plan_(plan), options_(options), log_(log), statistics_(plan), bar_(log) {
     if (!options.stats.empty()) stats_file_ = std::make_unique<PendingFile>(options.stats);
     timer_.begin(kLoadingPhase);
     if (options.resume || options.checkpoint_every > 0) identity_ = identity_of(plan, options);
@@ -201,7 +201,7 @@ class Run {
     timer_.begin(kOutputPhase);
     for (const auto& writer : writers_) writer->close();
     timer_.end();
-    if (const auto unmet = statistics_.warning(plan_, *simulation_)) log_.warning(*unmet);
+    for (const std::string& text : statistics_.warnings(plan_, *simulation_)) log_.warning(text);
     if (stats_file_)
       stats_file_->commit(statistics_.json(plan_, *simulation_, timer_, outcome).dump(2) + "\n");
   }

@@ -57,7 +57,16 @@ std::optional<std::string> RunStatistics::record_step(const Simulation& simulati
   most_.complementarity = std::max(most_.complementarity, s.complementarity);
   most_.penetration = std::max(most_.penetration, s.penetration);
   contact_steps_ += s.contacts > 0;
+  vibrations_.record(simulation);
   return unmet_.record(simulation);
+}
+
+std::vector<std::string> RunStatistics::warnings(const Plan& plan,
+                                                 const Simulation& simulation) const {
+  std::vector<std::string> out = vibrations_.warnings(simulation, plan.steps);
+  if (const auto unmet = unmet_.warning(simulation.steps(), plan.scene.contact))
+    out.push_back(*unmet);
+  return out;
 }
 
 Json RunStatistics::constraints_json(long steps) const {
@@ -95,7 +104,7 @@ Json momentum_json(const MomentumBalance& m) {
           {"angular_end", vector_json(m.angular_end)}};
 }
 
-Json body_json(const PlannedBody& planned, const Body& body) {
+Json body_json(const PlannedBody& planned, const Body& body, const Json& growing) {
   const BodyModel& model = body.model();
   return {{"name", body.name()},
           {"archive", planned.spec->archive.written},
@@ -104,6 +113,7 @@ Json body_json(const PlannedBody& planned, const Body& body) {
           {"loads", body.loads()},
           {"window", model.window},
           {"growth", model.report.growth},
+          {"growing_vibration", growing},
           {"linear_momentum", vector_json(body.linear_momentum())},
           {"angular_momentum", vector_json(body.frame().angular_momentum())}};
 }
@@ -120,9 +130,10 @@ Json RunStatistics::json(const Plan& plan, const Simulation& simulation, const P
   }
   Json bodies = Json::array();
   for (std::size_t i = 0; i < plan.bodies.size(); ++i)
-    bodies.push_back(body_json(plan.bodies[i], simulation.bodies()[i]));
-  std::vector<std::string> warnings = plan.warnings;
-  if (const auto unmet = warning(plan, simulation)) warnings.push_back(*unmet);
+    bodies.push_back(body_json(plan.bodies[i], simulation.bodies()[i],
+                               vibrations_.json(i, plan.scene.time_step)));
+  std::vector<std::string> all = plan.warnings;
+  for (std::string& text : warnings(plan, simulation)) all.push_back(std::move(text));
   return {{"program", version_text()},
           {"scene", plan.scene.location.file},
           {"outcome", outcome},
@@ -141,7 +152,7 @@ Json RunStatistics::json(const Plan& plan, const Simulation& simulation, const P
           {"constraints", constraints_json(steps)},
           {"momentum", momentum_json(simulation.momentum())},
           {"bodies", bodies},
-          {"warnings", warnings}};
+          {"warnings", all}};
 }
 
 }  // namespace bem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/measure.hpp"
+#include "growing_vibrations.hpp"
 #include "plan.hpp"
 #include "unmet_constraints.hpp"
 
@@ -9,16 +10,17 @@ namespace bem {
 /// What happens in the course of a run, for --stats.
 class RunStatistics {
  public:
+  explicit RunStatistics(const Plan& plan) : vibrations_(plan.scene) {}
   /// Takes note of how the constraints of a step were met. Returns a description of the first step
   /// in which they were not.
   std::optional<std::string> record_step(const Simulation& simulation);
   void record_frame() { ++frames_; }
   long frames() const { return frames_; }
-  void visit_state(StateArchive& state) { state(sum_, most_, unmet_, contact_steps_, frames_); }
-  /// Says what constraints were not met, if any.
-  std::optional<std::string> warning(const Plan& plan, const Simulation& simulation) const {
-    return unmet_.warning(simulation.steps(), plan.scene.contact);
+  void visit_state(StateArchive& state) {
+    state(sum_, most_, unmet_, vibrations_, contact_steps_, frames_);
   }
+  /// What is wrong with the motion: constraints that were not met, vibrations that grow.
+  std::vector<std::string> warnings(const Plan& plan, const Simulation& simulation) const;
 
   /// The file's contents. `outcome`: "complete", "interrupted" or "failed".
   nlohmann::ordered_json json(const Plan& plan, const Simulation& simulation,
@@ -29,6 +31,7 @@ class RunStatistics {
 
   ConstraintStatistics sum_, most_;  ///< over all steps
   UnmetConstraints unmet_;
+  GrowingVibrations vibrations_;
   long contact_steps_ = 0, frames_ = 0;
 };
 
