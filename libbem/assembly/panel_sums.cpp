@@ -45,7 +45,8 @@ void Coefficients(const LaneTable<T>& table, const KernelScales& scales, const P
   using V = hn::Vec<decltype(d)>;
   const auto set = [&d](double value) { return hn::Set(d, static_cast<T>(value)); };
   const V nx = set(normal[0]), ny = set(normal[1]), nz = set(normal[2]);
-  const V per_distance = set(scales.lam_per_distance * table.intervals_per_lam);
+  const V per_distance = set(scales.lam_per_distance), grading = set(table.kGrading);
+  const V scale = set(table.scale), first = set(-table.scale * table.graded(0));
   const V last = set(table.intervals - 1.0);
   const V one = set(1.0);
   alignas(64) T intervals[kCapacity];
@@ -59,8 +60,9 @@ void Coefficients(const LaneTable<T>& table, const KernelScales& scales, const P
                      hn::Mul(h[1], h[1]), hn::Mul(h[1], h[2]), hn::Mul(h[2], h[2])};
     const V hn_ = hn::MulAdd(h[0], nx, hn::MulAdd(h[1], ny, hn::Mul(h[2], nz)));
 
-    const V position = hn::Mul(r, per_distance);
-    const V interval = hn::Min(hn::Floor(position), last);
+    const V root = hn::Sqrt(hn::MulAdd(r, per_distance, grading));
+    const V position = hn::MulAdd(hn::Mul(root, hn::Sqrt(root)), scale, first);
+    const V interval = hn::Max(hn::Min(hn::Floor(position), last), hn::Zero(d));  // rounding at 0
     const V offset = hn::Sub(position, interval);
     hn::Store(hn::Sub(hn::Add(offset, offset), one), d, scratch.local + q);
     hn::Store(interval, d, intervals + q);

@@ -26,6 +26,24 @@ Eigen::Matrix<double, kNodes, kNodes> interpolation_matrix() {
   return vandermonde.inverse();
 }
 
+/// More intervals, so many that polynomials of their degree have that error.
+int refined(int count, double error, double tolerance) {
+  const double factor = 1.1 * std::pow(error / tolerance, 1.0 / kNodes);
+  return static_cast<int>(std::ceil(count * std::clamp(factor, 1.1, 4.0)));
+}
+
+/// All functions and lanes at t in [-1, 1] of an interval.
+template <class T>
+void evaluate_polynomials(const T* coefficients, int padded_lanes, double t, double* out) {
+  for (int f = 0; f < kRadialCount; ++f)
+    for (int lane = 0; lane < padded_lanes; ++lane) {
+      double value = 0;
+      for (int degree = kNodes - 1; degree >= 0; --degree)
+        value = value * t + coefficients[(f * kNodes + degree) * padded_lanes + lane];
+      out[f * padded_lanes + lane] = value;
+    }
+}
+
 }  // namespace
 
 RadialWeights::RadialWeights(const Scheme& scheme, double kappa, int last_lag,
@@ -65,16 +83,43 @@ void RadialWeights::evaluate_bdf1(double lam, double* out) const {
 
 RadialTable::RadialTable(const Scheme& scheme, double kappa, double lam_max, int last_lag,
                          double tolerance, const Damping& damping)
-    : layout_(scheme, last_lag), kappa_(kappa), damping_(damping) {
+    : layout_(scheme, last_lag), kappa_(kappa) {
   require(lam_max > 0, "the table covers a positive range");
   lanes_.set_lanes(layout_.count());
   set_static_parts(scheme);
-  constexpr int kMostRefinements = 6;
-  lanes_.intervals = std::max(1, static_cast<int>(std::ceil(2 * lam_max)));
-  for (int refinement = 0;; ++refinement, lanes_.intervals *= 2) {
-    build(scheme, lam_max);
-    if (interpolation_error(scheme, lam_max) <= tolerance) return;
+  const RadialWeights weights(scheme, kappa, last_lag, damping);
+  int count = sampled_intervals(weights, lam_max, tolerance);
+  constexpr int kMostRefinements = 12;
+  for (int refinement = 0;; ++refinement) {
+    set_intervals(count, lam_max);
+    build(weights);
+    const double error = largest_error(weights);
+    if (error <= tolerance) return;
     require(refinement < kMostRefinements, "the radial table reaches its tolerance");
+    count = refined(count, error, tolerance);
+  }
+}
+
+void RadialTable::set_intervals(int count, double lam_max) {
+  lanes_.intervals = count;
+  lanes_.scale = count / (lanes_.graded(lam_max) - lanes_.graded(0));
+}
+
+/// How many intervals there have to be, by some of them: the first ones, where errors are largest,
+/// and the middle one.
+int RadialTable::sampled_intervals(const RadialWeights& weights, double lam_max, double tolerance) {
+  std::vector<double> coefficients(lanes_.interval_size());
+  int count =
+      std::max(1, static_cast<int>(std::ceil(4 * (lanes_.graded(lam_max) - lanes_.graded(0)))));
+  for (;;) {
+    set_intervals(count, lam_max);
+    double worst = 0;
+    for (int interval : {0, std::min(1, count - 1), count / 2}) {
+      tabulate(weights, interval, coefficients.data());
+      worst = std::max(worst, error(weights, interval, coefficients.data()));
+    }
+    if (worst <= tolerance) return count;
+    count = refined(count, worst, tolerance);
   }
 }
 
@@ -90,43 +135,37 @@ void RadialTable::set_static_parts(const Scheme& scheme) {
   }
 }
 
-void RadialTable::build(const Scheme& scheme, double lam_max) {
-  lanes_.intervals_per_lam = lanes_.intervals / lam_max;
-  lanes_.coefficients.assign(lanes_.intervals * lanes_.interval_size(), 0.0);
-  const Eigen::Matrix<double, kNodes, kNodes> to_monomials = interpolation_matrix();
-  const RadialWeights weights(scheme, kappa_, layout_.last_lag, damping_);
+/// The coefficients of one interval.
+void RadialTable::tabulate(const RadialWeights& weights, int interval, double* out) const {
+  static const Eigen::Matrix<double, kNodes, kNodes> to_monomials = interpolation_matrix();
   const int count = layout_.count();
+  std::vector<double> values(static_cast<std::size_t>(kNodes) * kRadialCount * count);
+  for (int i = 0; i < kNodes; ++i)
+    weights.evaluate(lanes_.lam_at(interval + 0.5 * (1 + chebyshev_node(i))),
+                     &values[static_cast<std::size_t>(i) * kRadialCount * count]);
+  for (int f = 0; f < kRadialCount; ++f)
+    for (int lane = 0; lane < count; ++lane)
+      for (int degree = 0; degree < kNodes; ++degree) {
+        double sum = 0;
+        for (int i = 0; i < kNodes; ++i)
+          sum += to_monomials(degree, i) * values[(i * kRadialCount + f) * count + lane];
+        out[(f * kNodes + degree) * lanes_.padded_lanes + lane] = sum;
+      }
+}
+
+void RadialTable::build(const RadialWeights& weights) {
+  lanes_.coefficients.assign(lanes_.intervals * lanes_.interval_size(), 0.0);
   parallel_for(lanes_.intervals, [&](std::size_t interval) {
-    std::vector<double> values(static_cast<std::size_t>(kNodes) * kRadialCount * count);
-    for (int i = 0; i < kNodes; ++i) {
-      const double lam = (interval + 0.5 * (1 + chebyshev_node(i))) / lanes_.intervals_per_lam;
-      weights.evaluate(lam, &values[static_cast<std::size_t>(i) * kRadialCount * count]);
-    }
-    double* out = &lanes_.coefficients[interval * lanes_.interval_size()];
-    for (int f = 0; f < kRadialCount; ++f)
-      for (int lane = 0; lane < count; ++lane)
-        for (int degree = 0; degree < kNodes; ++degree) {
-          double sum = 0;
-          for (int i = 0; i < kNodes; ++i)
-            sum += to_monomials(degree, i) * values[(i * kRadialCount + f) * count + lane];
-          out[(f * kNodes + degree) * lanes_.padded_lanes + lane] = sum;
-        }
+    tabulate(weights, static_cast<int>(interval),
+             &lanes_.coefficients[interval * lanes_.interval_size()]);
   });
 }
 
 template <class T>
 void LaneTable<T>::evaluate(double lam, double* out) const {
-  const double position = lam * intervals_per_lam;
-  const int index = std::min(static_cast<int>(position), intervals - 1);
-  const double t = 2 * (position - index) - 1;
-  const T* c = interval(index);
-  for (int f = 0; f < kRadialCount; ++f)
-    for (int lane = 0; lane < padded_lanes; ++lane) {
-      double value = 0;
-      for (int degree = kNodes - 1; degree >= 0; --degree)
-        value = value * t + c[(f * kNodes + degree) * padded_lanes + lane];
-      out[f * padded_lanes + lane] = value;
-    }
+  const double place = position(lam);
+  const int index = std::min(static_cast<int>(place), intervals - 1);
+  evaluate_polynomials(interval(index), padded_lanes, 2 * (place - index) - 1, out);
 }
 
 template struct LaneTable<float>;
@@ -136,7 +175,7 @@ LaneTable<float> RadialTable::single_precision() const {
   LaneTable<float> narrow;
   narrow.set_lanes(lanes_.lanes);
   narrow.intervals = lanes_.intervals;
-  narrow.intervals_per_lam = lanes_.intervals_per_lam;
+  narrow.scale = lanes_.scale;
   const auto convert = [&](const AlignedVector<double>& from, AlignedVector<float>& to) {
     const std::size_t rows = from.size() / lanes_.padded_lanes;
     to.assign(rows * narrow.padded_lanes, 0.0f);
@@ -150,23 +189,28 @@ LaneTable<float> RadialTable::single_precision() const {
   return narrow;
 }
 
-double RadialTable::interpolation_error(const Scheme& scheme, double lam_max) const {
-  const RadialWeights weights(scheme, kappa_, layout_.last_lag, damping_);
-  const int count = layout_.count();
+/// Of the polynomials of an interval, between their nodes.
+double RadialTable::error(const RadialWeights& weights, int interval,
+                          const double* coefficients) const {
+  const int count = layout_.count(), padded = lanes_.padded_lanes;
+  std::vector<double> exact(static_cast<std::size_t>(kRadialCount) * count);
+  std::vector<double> found(static_cast<std::size_t>(kRadialCount) * padded);
+  double worst = 0;
+  for (double t : {0.001, 0.3}) {  // next to an end, where the node polynomial peaks, and inside
+    weights.evaluate(lanes_.lam_at(interval + t), exact.data());
+    evaluate_polynomials(coefficients, padded, 2 * t - 1, found.data());
+    for (int f = 0; f < kRadialCount; ++f)
+      for (int lane = 0; lane < count; ++lane)
+        worst = std::max(worst, std::abs(found[f * padded + lane] - exact[f * count + lane]));
+  }
+  return worst;
+}
+
+double RadialTable::largest_error(const RadialWeights& weights) const {
   std::vector<double> errors(lanes_.intervals, 0.0);
-  parallel_for(lanes_.intervals, [&](std::size_t interval) {
-    std::vector<double> exact(static_cast<std::size_t>(kRadialCount) * count);
-    std::vector<double> table(static_cast<std::size_t>(kRadialCount) * lanes_.padded_lanes);
-    for (double t : {0.001, 0.3}) {  // next to an end, where the node polynomial peaks, and inside
-      const double lam = (interval + t) * lam_max / lanes_.intervals;
-      weights.evaluate(lam, exact.data());
-      lanes_.evaluate(lam, table.data());
-      for (int f = 0; f < kRadialCount; ++f)
-        for (int lane = 0; lane < count; ++lane)
-          errors[interval] =
-              std::max(errors[interval],
-                       std::abs(table[f * lanes_.padded_lanes + lane] - exact[f * count + lane]));
-    }
+  parallel_for(lanes_.intervals, [&](std::size_t i) {
+    const int interval = static_cast<int>(i);
+    errors[i] = error(weights, interval, lanes_.interval(interval));
   });
   return *std::max_element(errors.begin(), errors.end());
 }

@@ -5,22 +5,27 @@
 #include "kernels/contour.hpp"
 #include "kernels/radial_functions.hpp"
 
+#include <cmath>
 #include <vector>
 
 namespace bem {
 
-/// Piecewise polynomials of lam = r/(c2 dt) for all radial functions and all lanes: one look-up and
-/// one Horner scheme per quadrature point give every lag at once. T is double, or float for far
-/// pairs at moderate tolerances.
+/// Piecewise polynomials for all radial functions and all lanes: one look-up and one Horner scheme
+/// per quadrature point give every lag at once. T is double, or float for far pairs at moderate
+/// tolerances.
+///
+/// The weights change fastest near lam = r/(c2 dt) = 0, and so the intervals are narrower there:
+/// they are equal in (lam + kGrading)^(3/4), which the polynomials are in.
 template <class T>
 struct LaneTable {
-  static constexpr int kNodes = 8;                     ///< polynomial coefficients per interval
+  static constexpr int kNodes = 8;  ///< polynomial coefficients per interval
+  static constexpr double kGrading = 0.2;
   static constexpr int kLanePadding = 64 / sizeof(T);  ///< lanes fill whole cache lines
 
   int lanes = 0;
   int padded_lanes = 0;
   int intervals = 0;
-  double intervals_per_lam = 0;
+  double scale = 0;               ///< intervals per unit of the graded variable
   AlignedVector<T> coefficients;  ///< [interval][function][degree][padded lane]
   AlignedVector<T> static_parts;  ///< [function][padded lane]: static P, Q, S, see static_part()
 
@@ -31,6 +36,15 @@ struct LaneTable {
   std::size_t interval_size() const {
     return static_cast<std::size_t>(kRadialCount) * kNodes * padded_lanes;
   }
+  static double graded(double lam) {
+    const double root = std::sqrt(lam + kGrading);
+    return root * std::sqrt(root);
+  }
+  /// Number of the interval that holds lam, and in its fraction the place in it.
+  double position(double lam) const { return scale * (graded(lam) - graded(0)); }
+  double lam_at(double position) const {
+    return std::pow(position / scale + graded(0), 4.0 / 3) - kGrading;
+  }
   /// Coefficients of an interval, in its local variable in [-1, 1].
   const T* interval(int index) const { return coefficients.data() + index * interval_size(); }
   /// Static part of P, Q or S by lane (in the real lanes of lag 0; zero for the other functions):
@@ -40,36 +54,6 @@ struct LaneTable {
   }
   /// Interpolated values out[function*padded_lanes + lane].
   void evaluate(double lam, double* out) const;
-};
-
-/// All convolution quadrature weights of all radial functions, tabulated. The last lag carries the
-/// sum of all later weights (M25): lag 0 alone is the static function.
-class RadialTable {
- public:
-  /// Tabulates 0 <= lam <= lam_max to an interpolation error <= tolerance (of values of order one;
-  /// checked against direct evaluation between the nodes). `damping`: its time in units of dt.
-  /// Cost: a few thousand short transforms.
-  RadialTable(const Scheme& scheme, double kappa, double lam_max, int last_lag,
-              double tolerance = 1e-10, const Damping& damping = {});
-
-  const LaneLayout& layout() const { return layout_; }
-  double kappa() const { return kappa_; }
-  const LaneTable<double>& lanes() const { return lanes_; }
-  /// The same rounded to single precision.
-  LaneTable<float> single_precision() const;
-  /// Lanes of lag 0 that hold real parts.
-  const std::vector<int>& static_lanes() const { return static_lanes_; }
-
- private:
-  void build(const Scheme& scheme, double lam_max);
-  void set_static_parts(const Scheme& scheme);
-  double interpolation_error(const Scheme& scheme, double lam_max) const;
-
-  LaneLayout layout_;
-  double kappa_;
-  Damping damping_;
-  LaneTable<double> lanes_;
-  std::vector<int> static_lanes_;
 };
 
 /// Direct evaluation of what RadialTable tabulates, out[function*layout.count() + lane]: closed
@@ -90,6 +74,39 @@ class RadialWeights {
   bool closed_form_;
   double kappa_;
   Damping damping_;
+};
+
+/// All convolution quadrature weights of all radial functions, tabulated. The last lag carries the
+/// sum of all later weights (M25): lag 0 alone is the static function.
+class RadialTable {
+ public:
+  /// Tabulates 0 <= lam <= lam_max to an interpolation error <= tolerance (of values of order one;
+  /// checked against direct evaluation between the nodes). `damping`: its time in units of dt.
+  /// Cost: some hundred to some thousand short transforms.
+  RadialTable(const Scheme& scheme, double kappa, double lam_max, int last_lag,
+              double tolerance = 1e-10, const Damping& damping = {});
+
+  const LaneLayout& layout() const { return layout_; }
+  double kappa() const { return kappa_; }
+  const LaneTable<double>& lanes() const { return lanes_; }
+  /// The same rounded to single precision.
+  LaneTable<float> single_precision() const;
+  /// Lanes of lag 0 that hold real parts.
+  const std::vector<int>& static_lanes() const { return static_lanes_; }
+
+ private:
+  void set_intervals(int count, double lam_max);
+  void tabulate(const RadialWeights& weights, int interval, double* out) const;
+  double error(const RadialWeights& weights, int interval, const double* coefficients) const;
+  int sampled_intervals(const RadialWeights& weights, double lam_max, double tolerance);
+  void build(const RadialWeights& weights);
+  void set_static_parts(const Scheme& scheme);
+  double largest_error(const RadialWeights& weights) const;
+
+  LaneLayout layout_;
+  double kappa_;
+  LaneTable<double> lanes_;
+  std::vector<int> static_lanes_;
 };
 
 }  // namespace bem

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 namespace bem {
 namespace {
@@ -66,6 +67,7 @@ struct Targets {
   std::unique_ptr<FamilyBuilder<T>> h, g;                               ///< lags, if any
   std::vector<std::unique_ptr<FamilyBuilder<T>>> initial_h, initial_g;  ///< by initial component
   std::vector<InitialMatrix> dense_h, dense_g;  ///< the same, to be inverted
+  std::optional<MatrixSlab<T>> known;           ///< a slab that is assembled already
 };
 
 /// Assembles all slabs and gives them to their targets.
@@ -89,7 +91,12 @@ void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vect
   };
   for (const Slab& s : slabs) {
     if (progress) progress("assembly", s.row_begin / nodes);
-    assembler.assemble(s.row_begin, s.row_end, slab);
+    if (targets.known && targets.known->first == s.row_begin) {
+      slab = std::move(*targets.known);
+      targets.known.reset();
+    } else {
+      assembler.assemble(s.row_begin, s.row_end, slab);
+    }
     rotation.add(slab);
     if (targets.h) targets.h->add_rows(views(slab.h));
     if (targets.g) targets.g->add_rows(views(slab.g));
@@ -192,6 +199,9 @@ class CompressedBuilders {
     assembler.assemble(slab_.row_begin, slab_.row_end, sample_);
   }
 
+  /// The sample, which the builders that have been made need no more.
+  MatrixSlab<float> take_sample() { return std::move(sample_); }
+
   std::unique_ptr<LowRankBuilder> h() const { return builder(sample_.h, norms_.h, tolerance_); }
   std::unique_ptr<LowRankBuilder> g() const { return builder(sample_.g, norms_.g, tolerance_); }
   /// Of parts of H_0 or G_0. `part_of_tolerance`: less than one for what is an ingredient only.
@@ -227,9 +237,10 @@ class CompressedBuilders {
 Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::vector<Slab>& slabs,
                                   const BodyModel& model, const PrecomputeOptions& options) {
   constexpr double kOfIngredient = 0.3;  // of the tolerance: G_0 that becomes H_0^{-1} G_0
+  constexpr std::size_t kFew = 8;        // slabs, of which one more in memory is worth its time
   const bool tractions = options.loads != Loads::none;
   const bool iterative = options.inverse == InverseKind::iterative;
-  const CompressedBuilders builders(assembler, slabs, options.codec.tolerance);
+  CompressedBuilders builders(assembler, slabs, options.codec.tolerance);
   Targets<float> targets;
   if (model.has_history()) targets.h = builders.h();
   if (model.has_history() && tractions) targets.g = builders.g();
@@ -239,12 +250,14 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
     if (tractions)
       targets.initial_g.push_back(builders.initial_g(part, parts, iterative ? 1.0 : kOfIngredient));
   });
+  if (slabs.size() <= kFew) targets.known = builders.take_sample();
   return targets;
 }
 
 void assemble_compressed(BodyModel& model, const PrecomputeOptions& options,
                          const Progress& progress) {
   SlabAssembler<float> assembler(model, assembly_precision(options));
+  if (progress) progress("assembly", 0);
   const std::vector<Slab> slabs = make_partition(model.geometry.nodes.vertices, {});
   Targets<float> targets = compressed_targets(assembler, slabs, model, options);
   assemble_all(assembler, model, slabs, targets, progress);
@@ -292,6 +305,7 @@ StoredEstimate sample_compression(const BodyGeometry& geometry, const Precompute
   }
   SlabAssembler<float> assembler(model, assembly_precision(options));
   Targets<float> targets = compressed_targets(assembler, slabs, model, iterative);
+  targets.known.reset();  // its time counts, too
   const auto start = std::chrono::steady_clock::now();
   assemble_all(assembler, model, slabs, targets, nullptr);
   const double seconds =

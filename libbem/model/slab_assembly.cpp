@@ -148,8 +148,7 @@ void SlabAssembler<T>::distribute_columns(int node, const AlignedVector<double>&
 
 template <class T>
 typename SlabAssembler<T>::Norms SlabAssembler<T>::estimate_norms() const {
-  constexpr int kSamples = 48;
-  const int n = static_cast<int>(model_.nodes()), samples = std::min(n, kSamples);
+  const int n = static_cast<int>(model_.nodes()), samples = std::min(n, std::clamp(n / 4, 8, 48));
   std::vector<Norms> parts(samples);
   parallel_for(samples, [&](std::size_t i) {
     thread_local RowAssembler::Workspace work;

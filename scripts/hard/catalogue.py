@@ -292,12 +292,13 @@ def impacts():
     strict = {"passed through": ("<=", 0), "pushed on": (">=", 0.4), "energy gain": ("<=", 1e-4),
               "penetration": ("<=", 2e-5), "not met": ("<=", 0)}
     loose = {"passed through": ("<=", 0), "pushed on": (">=", 0.4), "energy gain": ("<=", 1e-4), "penetration": ("<=", 5e-3)}
+    chance = {**loose, "penetration": ("<=", 0.1)}  # of a step whose contacts are not met, which the warning says
     broken = {"energy gain": ("<=", 1e-4)}  # balls are flattened to nothing: a warning is what can be expected
     unmet = {"passed through": ("<=", 0), "energy gain": ("<=", 1e-4)}  # where the ball goes is left to chance
     rigid = ("--model", "rigid")
     trials = []
     for name, speed, dt, options, bounds in (
-            ("c2", 30, 0.002, (), strict), ("c2-in-3-sizes", 30, 0.02, (), loose),
+            ("c2", 30, 0.002, (), strict), ("c2-in-3-sizes", 30, 0.02, (), chance),
             ("c2-in-3-sizes-off-centre", 30, 0.02, (), unmet),
             ("rigid-in-3-sizes", 30, 0.02, rigid, loose), ("10-c2-in-3-sizes", 300, 0.002, (), broken),
             ("10-c2-in-30-sizes", 300, 0.02, (), broken)):
@@ -305,10 +306,10 @@ def impacts():
         if "off-centre" in name:
             changes["/bodies/3"] = {"name": "target", "archive": "ball.bem", "position": [6.02, 0, 0.01]}
         trials.append(Trial(name, {"ball": Body(ball, dt=dt, options=options)}, "impact", changes,
-                            {"plate": ("box", (0.6, 0.02, 0.6), (6, 1, 6))}, steps=20, short=bounds in (strict, loose), frames=0,
+                            {"plate": ("box", (0.6, 0.02, 0.6), (6, 1, 6))}, steps=20, short=bounds in (strict, loose, chance), frames=0,
                             measured=(), also=(figures.impact,), bounds=bounds,
                             ends="complete or stopped" if bounds is broken else "complete",
-                            says=("use a shorter time step",) if bounds is broken else ()))
+                            says=("use a shorter time step",) if bounds in (broken, chance) else ()))
     return tuple(trials)
 
 

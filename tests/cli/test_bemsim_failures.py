@@ -164,8 +164,7 @@ class Failures(SimulationCase):
             self.assertLess(len(file["time"]), 21)
             self.assertTrue(np.isfinite(file["bodies/ball/positions"][:]).all())
         self.assertEqual(json.loads(stats.read_text())["outcome"], "failed")
-        self.assertEqual(json.loads(stats.read_text())["bodies"][0]["growing_vibration"], None)
-        self.assertEqual(stats.read_text().count("null"), 1)  # all numbers are finite
+        self.assertNotIn("null", stats.read_text())  # all numbers are finite
 
     def test_an_unstable_motion_is_stopped(self):
         material = {"name": "gum", "density": 1000, "shear_modulus": 1e6, "poisson_ratio": 0.5}

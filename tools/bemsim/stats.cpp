@@ -106,16 +106,17 @@ Json momentum_json(const MomentumBalance& m) {
 
 Json body_json(const PlannedBody& planned, const Body& body, const Json& growing) {
   const BodyModel& model = body.model();
-  return {{"name", body.name()},
-          {"archive", planned.spec->archive.written},
-          {"vertices", model.geometry.input.vertices.size()},
-          {"prescribed_vertices", planned.fixed + planned.handled},
-          {"loads", body.loads()},
-          {"window", model.window},
-          {"growth", model.report.growth},
-          {"growing_vibration", growing},
-          {"linear_momentum", vector_json(body.linear_momentum())},
-          {"angular_momentum", vector_json(body.frame().angular_momentum())}};
+  Json out{{"name", body.name()},
+           {"archive", planned.spec->archive.written},
+           {"vertices", model.geometry.input.vertices.size()},
+           {"prescribed_vertices", planned.fixed + planned.handled},
+           {"loads", body.loads()},
+           {"window", model.window},
+           {"growth", model.report.growth},
+           {"linear_momentum", vector_json(body.linear_momentum())},
+           {"angular_momentum", vector_json(body.frame().angular_momentum())}};
+  if (!growing.is_null()) out["growing_vibration"] = growing;
+  return out;
 }
 
 }  // namespace
