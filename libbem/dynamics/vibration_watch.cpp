@@ -14,7 +14,8 @@ constexpr Eigen::Index kSignals = 4, kMostSteps = 512, kFewestSteps = 64, kMostR
 constexpr double kLeastGrowth = 0.002;     // during kMostSteps
 constexpr double kLeastShare = 0.02;       // of the amplitude of the motion
 constexpr double kLargestResidual = 1e-4;  // of the prediction: larger where it is disturbed
-constexpr double kLeastMotion = 1e-5;      // about its mean: below is rounding
+constexpr double kFewestPeriods = 2;
+constexpr double kLeastMotion = 1e-5;  // about its mean: below is rounding
 
 /// Numbers in [-1/2, 1/2), the same on every machine.
 Eigen::MatrixXd signal_weights(Eigen::Index unknowns) {
@@ -109,8 +110,8 @@ Vibration VibrationWatch::examined() const {
   const double whole = y.norm() * std::sqrt(2.0 / static_cast<double>(count_));
   for (Eigen::Index k = 0; k < z.size(); ++k) {
     const double growth = std::abs(z[k]), turns = std::arg(z[k]) / (2 * kPi);
-    const bool seen =
-        turns * static_cast<double>(count_) >= 1 && amplitudes[k] >= kLeastShare * whole;
+    const bool seen = turns * static_cast<double>(count_) >= kFewestPeriods &&
+                      amplitudes[k] >= kLeastShare * whole;
     if (seen && std::log(growth) * kMostSteps > kLeastGrowth && growth > out.growth)
       out = {growth, turns};
   }

@@ -30,8 +30,8 @@ class VibrationWatch {
   void interrupt();
 
   /// The one that has grown fastest per step, if any has; those that grow by less than 0.2 % during
-  /// 512 steps, make up less than 2 % of the motion, or are slower than the time watched are left
-  /// out.
+  /// 512 steps, make up less than 2 % of the motion, or are watched for less than two periods are
+  /// left out.
   std::optional<Vibration> growing() const;
 
   void visit_state(StateArchive& state) { state(samples_, count_, found_); }

@@ -16,9 +16,11 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// When what the scene does to a body stops changing. A joint to another body brings in its motion.
+/// When what the scene does to a body stops changing; never for one that is free, whose growth
+/// bemprecomp has measured, or that a joint brings the motion of another body.
 double quiet_from(const Scene& scene, std::size_t body) {
   const BodySpec& spec = scene.bodies[body];
+  if (spec.fixed.empty() && spec.handles.empty()) return kNever;
   double out = 0;
   for (const TractionSpec& load : spec.tractions)
     if (!load.profile.empty()) out = std::max(out, load.profile.back().time);

@@ -10,8 +10,8 @@
 
 namespace bem {
 
-/// Vibrations that grow although nothing drives them, by body of a scene. Bodies are watched while
-/// nothing touches or moves them and their loads are constant.
+/// Vibrations of held bodies that grow although nothing drives them, by body of a scene. Bodies are
+/// watched while nothing touches or moves them and their loads are constant.
 class GrowingVibrations {
  public:
   explicit GrowingVibrations(const Scene& scene);
