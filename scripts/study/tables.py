@@ -167,12 +167,19 @@ def table_history(found):
 
 def table_window(found):
     rows = []
-    for scene in ("rod-fixed", "sphere", "mode", "beam"):
+    for scene in ("rod-fixed", "sphere", "mode", "beam-free", "beam"):
         for setting, r, _ in sweep_rows(found, scene, "window"):
             chosen = f"{setting.window} ({r['window']:.6g})" if setting.window == "auto" and "window" in r else setting.window
             rows.append([TITLES[scene], chosen, error(r), number(r.get("growth_factor"), 6),
-                         number(r.get("growth"), 4) if "growth" in r else number(r.get("energy"), 4) if "energy" in r else ""])
-    return table(["problem", "window", "error", "growth per step without", "amplitude (beam) or energy (mode) left per period"], rows)
+                         left_per_period(r)])
+        rows += [[TITLES[scene], key.split("--damping ")[1], error(r), number(r.get("growth_factor"), 6), left_per_period(r)]
+                 for key, r in of_scene(found, scene).items() if "--damping" in key]
+    return table(["problem", "window or damping", "error", "growth per step without window",
+                  "amplitude (beam) or energy (mode) left per period"], rows)
+
+
+def left_per_period(record):
+    return number(record.get("growth", record.get("energy")), 4) if {"growth", "energy"} & record.keys() else ""
 
 
 def table_energy(found):
