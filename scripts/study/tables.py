@@ -247,5 +247,7 @@ def table_calculix(found):
 
 
 def remark(found):
-    records = [r for part in found.values() for r in part.values() if "cores_of_others" in r]
+    long = 2  # CPU seconds; of shorter runs the script itself is a noticeable part
+    records = [r for part in found.values() for r in part.values() if "cores_of_others" in r
+               and r.get("cpu", 0) + r.get("precompute_cpu", 0) + r.get("simulate_cpu", 0) > long]
     return f"{machine()}, one thread, CPU seconds.{load_remark(records)}" if records else ""

@@ -198,6 +198,13 @@ class Messages(CliCase):
                     self.assertLessEqual(grown, 1)
         self.assertNotIn("motions", self.precompute("--force").stderr)
 
+    def test_damping_holds_what_grows(self):
+        base = ["sphere.obj", "rubber.json", "--dt", "0.00114", "-o", "a.bem", "--force", "-q"]
+        warning = self.run_tool(*base).stderr
+        damping, hertz = re.search("or --damping (kelvin_voigt:[0-9.e-]+), .* slower than ([0-9]+) Hz", warning).groups()
+        self.assertTrue(100 < float(hertz) < 200, hertz)
+        self.assertEqual(self.run_tool(*base, "--damping", damping).stderr, "")
+
     def test_growth_that_no_sensible_window_prevents_is_an_error(self):
         base = ["--dt", "0.002", "--scheme", "bdf1", "--history", "2"]
         done = self.run_tool("sphere.obj", "rubber.json", *base, "-o", "a.bem", "-q", code=5)

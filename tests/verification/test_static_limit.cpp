@@ -1,6 +1,8 @@
 // Static limit: what is left of a loaded body when its vibration has decayed. Printed figures are
 // quoted in docs/accuracy.md, "Static limit".
 #include "assembly/laplace_assembly.hpp"
+#include "model/growth.hpp"
+#include "support/lag_matrices.hpp"
 #include "support/simulate.hpp"
 
 #include <cstdio>
@@ -153,7 +155,57 @@ BodySpec held_spec(const Vec3& traction) {
   return spec;
 }
 
+/// What is missing of H(0) u for u = x, relative, if the history ends after `length` steps and
+/// nothing stands for the rest.
+double missing_without_closure(const TriangleMesh& mesh, const Discretisation& d, int length) {
+  const LagMatrices all = assemble_all(mesh, d, true);
+  const LaneLayout layout(d.scheme, d.history_length);
+  const auto n = static_cast<Eigen::Index>(3 * mesh.vertices.size());
+  Eigen::VectorXd u(n);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    u.segment<3>(static_cast<Eigen::Index>(3 * i)) = mesh.vertices[i];
+  Eigen::MatrixXd missing = Eigen::MatrixXd::Zero(n, d.scheme.stages());
+  for (int k = length + 1; k <= d.history_length; ++k)
+    for (int m = 0; m < layout.components; ++m) {
+      const LagComponent& c = d.scheme.lag_components()[m];
+      missing += c.right.sum() * (all.h[layout.lane(k, m)] * u) * c.left.transpose();
+    }
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(n);
+  const std::vector<double> factors = static_lane_factors(d.scheme, layout);
+  for (std::size_t lane = 0; lane < factors.size(); ++lane)
+    whole += factors[lane] * (all.h[lane] * u);
+  return missing.cwiseAbs().maxCoeff() / whole.cwiseAbs().maxCoeff();
+}
+
 }  // namespace
+
+TEST_CASE("the last lag stands for all that the history leaves out") {
+  const Material m = material(1000, 1e6, 0.3);
+  const BodyGeometry g = geometry_of(icosphere(1, 0.5), m.density);
+  for (const char* scheme : {"bdf1", "bdf2", "radau2"})
+    for (const double lam : {3.5, 10.0}) {
+      PrecomputeOptions o = options_for(g, m, scheme, lam);
+      const int usual = o.discretisation.history_length, least = static_cast<int>(lam + 2);
+      o.discretisation.history_length = 3 * usual;
+      BodyModel model = precompute(g, o);
+      const double all_lags = growth_factor(model).factor;
+      for (const int length : {least, usual}) {
+        const double missing = missing_without_closure(g.nodes, o.discretisation, length);
+        model.discretisation.history_length = length;  // what comes after it is not looked at
+        const double without = growth_factor(model).factor;
+        PrecomputeOptions closed = o;
+        closed.discretisation.history_length = length;
+        const double with = growth_factor(precompute(g, closed)).factor;
+        std::printf(
+            "closure, %s, lam %.1f, %d lags: %.1e of the static limit missing without it; growth "
+            "%.4f without, %.4f with it, %.4f with all lags\n",
+            scheme, lam, length, missing, without, with, all_lags);
+        INFO(scheme << ", lam " << lam << ", " << length << " lags");
+        CHECK((length == usual ? missing < 4e-4 : missing > 1e-4));
+        if (length == usual) CHECK(std::abs(with - all_lags) < 0.01);
+      }
+    }
+}
 
 TEST_CASE("free bodies under balanced loads come to the exact elastostatic deformation") {
   const Material m = material(1000, 1e6, 0.3);

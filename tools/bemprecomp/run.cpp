@@ -24,22 +24,26 @@ std::string short_text(double value) {
 }
 
 /// The material damping that takes from the motion that grows what it gains, w^2 T/2 = rate, and a
-/// tenth more, besides the damping there is; as an option of bemprecomp.
+/// tenth more, besides the damping there is; as an option of bemprecomp. Empty if it would be
+/// strong, or would not help.
 std::string damping_text(const BodyModel& model) {
+  constexpr double kStrong = 0.2;  // time steps
+  if (model.report.growth_frequency == 0) return "";
   const double rate = std::log(model.report.growth) / model.discretisation.dt;
   const double angular = 2 * kPi * model.report.growth_frequency;
   const double time = model.discretisation.damping.time + 2.2 * rate / (angular * angular);
+  if (time > kStrong * model.discretisation.dt) return "";
   std::ostringstream text;
-  text << "--damping kelvin_voigt:" << std::setprecision(2) << time
-       << ", which takes less of what is slower than " << model.report.growth_frequency << " Hz";
+  text << ", or --damping kelvin_voigt:" << std::setprecision(2) << time
+       << ", which takes less of what is slower than " << std::setprecision(3)
+       << model.report.growth_frequency << " Hz";
   return text.str();
 }
 
 /// Empty if motions do not grow noticeably.
 std::string growth_warning(const BodyModel& model) {
   const double growth = model.report.growth, left = growth * model.window;
-  std::string cure = "a larger --dt, a smaller theta, or a finer mesh";
-  if (model.report.growth_frequency > 0) cure += ", or " + damping_text(model);
+  const std::string cure = "a larger --dt, a smaller theta, or a finer mesh" + damping_text(model);
   if (left > kNoticeableGrowth)
     return "motions grow by a factor of " + short_text(left) +
            " per step; --window auto removes that, better are " + cure;
