@@ -13,6 +13,7 @@ namespace bem {
 namespace {
 
 constexpr int kNodes = LaneTable<double>::kNodes;
+constexpr double kRounding = 1e-12;  // of weights: no intervals are so narrow that errors are less
 
 double chebyshev_node(int i) {
   return std::cos(kPi * (2 * i + 1) / (2 * kNodes));
@@ -90,14 +91,14 @@ RadialTable::RadialTable(const Scheme& scheme, double kappa, double lam_max, int
   const RadialWeights weights(scheme, kappa, last_lag, damping);
   int count = sampled_intervals(weights, lam_max, tolerance);
   constexpr int kMostRefinements = 12;
-  for (int refinement = 0;; ++refinement) {
+  for (int refinement = 0; refinement <= kMostRefinements; ++refinement) {
     set_intervals(count, lam_max);
     build(weights);
     const double error = largest_error(weights);
-    if (error <= tolerance) return;
-    require(refinement < kMostRefinements, "the radial table reaches its tolerance");
+    if (error <= std::max(tolerance, kRounding)) return;
     count = refined(count, error, tolerance);
   }
+  require(false, "the radial table reaches its tolerance");
 }
 
 void RadialTable::set_intervals(int count, double lam_max) {
@@ -118,7 +119,7 @@ int RadialTable::sampled_intervals(const RadialWeights& weights, double lam_max,
       tabulate(weights, interval, coefficients.data());
       worst = std::max(worst, error(weights, interval, coefficients.data()));
     }
-    if (worst <= tolerance) return count;
+    if (worst <= std::max(tolerance, kRounding)) return count;
     count = refined(count, worst, tolerance);
   }
 }

@@ -80,9 +80,9 @@ class RadialWeights {
 /// sum of all later weights (M25): lag 0 alone is the static function.
 class RadialTable {
  public:
-  /// Tabulates 0 <= lam <= lam_max to an interpolation error <= tolerance (of values of order one;
-  /// checked against direct evaluation between the nodes). `damping`: its time in units of dt.
-  /// Cost: some hundred to some thousand short transforms.
+  /// Tabulates 0 <= lam <= lam_max to an interpolation error <= tolerance, or about rounding (of
+  /// values of order one; checked against direct evaluation between the nodes). `damping`: its time
+  /// in units of dt. Cost: some hundred to some thousand short transforms.
   RadialTable(const Scheme& scheme, double kappa, double lam_max, int last_lag,
               double tolerance = 1e-10, const Damping& damping = {});
 

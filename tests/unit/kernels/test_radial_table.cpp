@@ -39,6 +39,12 @@ TEST_CASE("tables interpolate every scheme to 1e-10 of the static kernel") {
       }
 }
 
+TEST_CASE("tables come to an end at rounding") {
+  const Scheme scheme = Scheme::parse("radau2");
+  const RadialTable table(scheme, 0.2, 10, default_history_length(scheme, 10), 1e-16);
+  CHECK(worst_difference(table, scheme, 10) < 3e-12);
+}
+
 TEST_CASE("weights of damped materials") {
   for (const char* name : {"bdf1", "radau2", "radau3"}) {
     const Scheme scheme = Scheme::parse(name);
