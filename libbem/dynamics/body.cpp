@@ -346,11 +346,10 @@ void Body::end_step() {
       move_frame_by(corrected->acceleration);
       end_displacement_ = corrected->displacement;
     }
-    check_end();
-    displacement_ = end_displacement_;
     for (PrescribedLoad& p : loads_) p.history.push(p.stages);
   }
-  if (is_rigid()) check_end();
+  check_end();
+  if (elastic_) displacement_ = end_displacement_;
   frame_.advance(frame_stages_);
 }
 

@@ -86,6 +86,7 @@ RadialTable::RadialTable(const Scheme& scheme, double kappa, double lam_max, int
                          double tolerance, const Damping& damping)
     : layout_(scheme, last_lag), kappa_(kappa) {
   require(lam_max > 0, "the table covers a positive range");
+  tolerance = std::max(tolerance, kRounding);
   lanes_.set_lanes(layout_.count());
   set_static_parts(scheme);
   const RadialWeights weights(scheme, kappa, last_lag, damping);
@@ -95,7 +96,7 @@ RadialTable::RadialTable(const Scheme& scheme, double kappa, double lam_max, int
     set_intervals(count, lam_max);
     build(weights);
     const double error = largest_error(weights);
-    if (error <= std::max(tolerance, kRounding)) return;
+    if (error <= tolerance) return;
     count = refined(count, error, tolerance);
   }
   require(false, "the radial table reaches its tolerance");
@@ -119,7 +120,7 @@ int RadialTable::sampled_intervals(const RadialWeights& weights, double lam_max,
       tabulate(weights, interval, coefficients.data());
       worst = std::max(worst, error(weights, interval, coefficients.data()));
     }
-    if (worst <= std::max(tolerance, kRounding)) return count;
+    if (worst <= tolerance) return count;
     count = refined(count, worst, tolerance);
   }
 }

@@ -10,6 +10,13 @@ std::string to_text(double value) {
   return {buffer, end};
 }
 
+std::string rounded_text(double value, int digits) {
+  char buffer[40];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits).ptr;
+  return {buffer, end};
+}
+
 std::string to_text(const Vec3& point) {
   return "(" + to_text(point[0]) + ", " + to_text(point[1]) + ", " + to_text(point[2]) + ")";
 }

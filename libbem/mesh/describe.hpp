@@ -10,6 +10,8 @@ namespace bem {
 /// the locale.
 std::string to_text(double value);
 std::string to_text(const Vec3& point);  ///< "(x, y, z)"
+/// The same to so many significant digits.
+std::string rounded_text(double value, int digits);
 
 /// "1 edge", "3 edges": `unit` in the singular.
 std::string count_text(std::size_t count, const std::string& unit);

@@ -1,6 +1,7 @@
 #include "model/growth.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <numeric>
 #include <random>
@@ -156,6 +157,11 @@ Eigen::VectorXd smoothed_start(const FreeRecursion& recursion, int steps) {
 }
 
 }  // namespace
+
+double holding_damping(double growth, double frequency) {
+  const double angular = 2 * kPi * frequency;
+  return 2 * std::log(growth) / (angular * angular);
+}
 
 GrowthEstimate growth_factor(const BodyModel& model) {
   constexpr int kMostSteps = 600, kMostKept = 100, kKept = 40, kCheckEvery = 20;

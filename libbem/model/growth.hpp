@@ -18,4 +18,8 @@ struct GrowthEstimate {
 /// shorter the time steps are.
 GrowthEstimate growth_factor(const BodyModel& model);
 
+/// Retardation time [time steps] of the Kelvin-Voigt damping that takes from a motion what it
+/// gains, w^2 T/2 = log(growth); growth per step, frequency > 0 [periods per step].
+double holding_damping(double growth, double frequency);
+
 }  // namespace bem

@@ -148,7 +148,7 @@ void SlabAssembler<T>::distribute_columns(int node, const AlignedVector<double>&
 
 template <class T>
 typename SlabAssembler<T>::Norms SlabAssembler<T>::estimate_norms() const {
-  const int n = static_cast<int>(model_.nodes()), samples = std::min(n, std::clamp(n / 4, 8, 48));
+  const int n = static_cast<int>(model_.nodes()), samples = std::min(n, std::clamp(n / 3, 8, 48));
   std::vector<Norms> parts(samples);
   parallel_for(samples, [&](std::size_t i) {
     thread_local RowAssembler::Workspace work;

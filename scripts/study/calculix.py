@@ -19,8 +19,8 @@ ALPHA = -0.05  # of the Hilber-Hughes-Taylor method, the default of ccx
 ENVIRONMENT = {"OMP_NUM_THREADS": "1", "CCX_NPROC_EQUATION_SOLVER": "1", "CCX_NPROC_STIFFNESS": "1",
                "NUMBER_OF_CPUS": "1"}
 CORNERS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
-HEXAHEDRON = (tuple(range(8)),)
-SIX_TETRAHEDRA = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))  # about a diagonal
+PARTS = {8: (tuple(range(8)),),  # of a cell: itself, or tetrahedra about a diagonal
+         4: ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))}
 EDGES = {8: ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)),
          4: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))}
 FACES = {8: ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)),
@@ -34,7 +34,7 @@ def corner_count(element):
 
 def block(size, cells, element):
     """Nodes {number: (x, y, z)}, elements (lists of node numbers in the order of ccx), of a box from the origin."""
-    corners_of, parts = corner_count(element), HEXAHEDRON if corner_count(element) == 8 else SIX_TETRAHEDRA
+    count = corner_count(element)
     quadratic = element.startswith(("C3D20", "C3D10"))
     cells, index, nodes = np.array(cells), {}, {}
 
@@ -47,9 +47,9 @@ def block(size, cells, element):
 
     elements = []
     for cell in np.ndindex(*cells):
-        for part in parts:
+        for part in PARTS[count]:
             corners = [2 * np.array(cell) + 2 * np.array(CORNERS[c]) for c in part]
-            middles = [(corners[a] + corners[b]) // 2 for a, b in EDGES[corners_of]] if quadratic else []
+            middles = [(corners[a] + corners[b]) // 2 for a, b in EDGES[count]] if quadratic else []
             elements.append([node(k) for k in [*corners, *middles]])
     return nodes, elements
 

@@ -156,9 +156,9 @@ BodySpec held_spec(const Vec3& traction) {
 }
 
 /// What is missing of H(0) u for u = x, relative, if the history ends after `length` steps and
-/// nothing stands for the rest.
-double missing_without_closure(const TriangleMesh& mesh, const Discretisation& d, int length) {
-  const LagMatrices all = assemble_all(mesh, d, true);
+/// nothing stands for the rest; `all`: the matrices of a longer one.
+double missing_without_closure(const TriangleMesh& mesh, const Discretisation& d,
+                               const LagMatrices& all, int length) {
   const LaneLayout layout(d.scheme, d.history_length);
   const auto n = static_cast<Eigen::Index>(3 * mesh.vertices.size());
   Eigen::VectorXd u(n);
@@ -189,8 +189,9 @@ TEST_CASE("the last lag stands for all that the history leaves out") {
       o.discretisation.history_length = 3 * usual;
       BodyModel model = precompute(g, o);
       const double all_lags = growth_factor(model).factor;
+      const LagMatrices all = assemble_all(g.nodes, o.discretisation, true);
       for (const int length : {least, usual}) {
-        const double missing = missing_without_closure(g.nodes, o.discretisation, length);
+        const double missing = missing_without_closure(g.nodes, o.discretisation, all, length);
         model.discretisation.history_length = length;  // what comes after it is not looked at
         const double without = growth_factor(model).factor;
         PrecomputeOptions closed = o;

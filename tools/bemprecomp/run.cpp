@@ -3,41 +3,31 @@
 #include "archive/archive_writer.hpp"
 #include "base/error.hpp"
 #include "base/pending_file.hpp"
+#include "mesh/describe.hpp"
+#include "model/growth.hpp"
 #include "report.hpp"
 
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <optional>
-#include <sstream>
 
 namespace bem {
 namespace {
 
 constexpr double kNoticeableGrowth = 1.0005;
 
-std::string short_text(double value) {
-  std::ostringstream text;
-  text << std::setprecision(6) << value;
-  return text.str();
-}
-
-/// The material damping that takes from the motion that grows what it gains, w^2 T/2 = rate, and a
-/// tenth more, besides the damping there is; as an option of bemprecomp. Empty if it would be
-/// strong, or would not help.
+/// The material damping that holds the motion that grows, and a tenth more, besides the damping
+/// there is; as an option of bemprecomp. Empty if it would be strong, or would not help.
 std::string damping_text(const BodyModel& model) {
   constexpr double kStrong = 0.2;  // time steps
-  if (model.report.growth_frequency == 0) return "";
-  const double rate = std::log(model.report.growth) / model.discretisation.dt;
-  const double angular = 2 * kPi * model.report.growth_frequency;
-  const double time = model.discretisation.damping.time + 2.2 * rate / (angular * angular);
-  if (time > kStrong * model.discretisation.dt) return "";
-  std::ostringstream text;
-  text << ", or --damping kelvin_voigt:" << std::setprecision(2) << time
-       << ", which takes less of what is slower than " << std::setprecision(3)
-       << model.report.growth_frequency << " Hz";
-  return text.str();
+  const double dt = model.discretisation.dt, hertz = model.report.growth_frequency;
+  if (hertz == 0) return "";
+  const double time = model.discretisation.damping.time +
+                      1.1 * dt * holding_damping(model.report.growth, hertz * dt);
+  if (time > kStrong * dt) return "";
+  return ", or --damping kelvin_voigt:" + rounded_text(time, 2) +
+         ", which takes less of what is slower than " + rounded_text(hertz, 3) + " Hz";
 }
 
 /// Empty if motions do not grow noticeably.
@@ -45,12 +35,12 @@ std::string growth_warning(const BodyModel& model) {
   const double growth = model.report.growth, left = growth * model.window;
   const std::string cure = "a larger --dt, a smaller theta, or a finer mesh" + damping_text(model);
   if (left > kNoticeableGrowth)
-    return "motions grow by a factor of " + short_text(left) +
+    return "motions grow by a factor of " + rounded_text(left, 6) +
            " per step; --window auto removes that, better are " + cure;
   if (growth > kNoticeableGrowth)
-    return "motions would grow by a factor of " + short_text(growth) + " per step; the window " +
-           short_text(model.window) + " removes that, but takes " +
-           short_text(std::round(100 * (1 - std::pow(model.window, model.report.lam)))) +
+    return "motions would grow by a factor of " + rounded_text(growth, 6) +
+           " per step; the window " + rounded_text(model.window, 6) + " removes that, but takes " +
+           rounded_text(std::round(100 * (1 - std::pow(model.window, model.report.lam))), 6) +
            " % of every vibration while a shear wave crosses the body: better are " + cure;
   return "";
 }

@@ -10,8 +10,8 @@
 
 namespace bem {
 
-/// Vibrations of held bodies that grow although nothing drives them, by body of a scene. Bodies are
-/// watched while nothing touches or moves them and their loads are constant.
+/// Vibrations of held bodies of a scene that grow although nothing drives them. Bodies are watched
+/// while nothing touches or moves them and their loads are constant.
 class GrowingVibrations {
  public:
   explicit GrowingVibrations(const Scene& scene);
@@ -21,17 +21,18 @@ class GrowingVibrations {
   /// For every body with a vibration that grows noticeably in that many steps: how fast, and what
   /// helps.
   std::vector<std::string> warnings(const Simulation& simulation, long steps) const;
-  /// What has been found of a body: null, or frequency [Hz] and growth per step.
+  /// What has been found of a body of the scene: null, or frequency [Hz] and growth per step.
   nlohmann::ordered_json json(std::size_t body, double time_step) const;
 
   void visit_state(StateArchive& state);
 
  private:
   struct Watched {
-    double quiet_from = 0;  ///< the time when the loads of the scene have become constant [s]
+    std::size_t body;
+    double quiet_from;  ///< the time when its loads have become constant [s]
     VibrationWatch watch;
   };
-  std::vector<Watched> bodies_;
+  std::vector<Watched> watched_;
 };
 
 }  // namespace bem

@@ -3,8 +3,6 @@
 #include "mesh/describe.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -13,9 +11,7 @@ namespace {
 
 /// A length with as many digits as an error has.
 std::string length_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2g m", value);
-  return text.data();
+  return rounded_text(value, 2) + " m";
 }
 
 std::string steps_text(long steps) {

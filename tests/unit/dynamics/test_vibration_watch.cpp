@@ -1,7 +1,6 @@
 #include "dynamics/vibration_watch.hpp"
 
 #include <cmath>
-#include <complex>
 
 #include <catch2/catch.hpp>
 
