@@ -58,7 +58,7 @@ TEST_CASE("what does not grow is not reported", "[dynamics]") {
   CHECK(!watched(Motion({{0, 1, 0.1}}), 300));                         // at rest
   CHECK(!watched(Motion({{1e-8, 1.01, 0.021}}), 100));                 // rounding
   CHECK(!watched(Motion({{0.1, 1.01, 0.015}}), 100));                  // not yet two periods
-  CHECK(!watched(Motion({{0.1, 1.001, 0.021}}), 40));                  // too short
+  CHECK(!watched(Motion({{0.1, 1.001, 0.1}}), 40));                    // too short
   CHECK(!watched(Motion({{1, 1, 0.04}, {1e-3, 1.002, 0.021}}), 300));  // a small part
 }
 
@@ -72,10 +72,23 @@ TEST_CASE("disturbances begin a new motion", "[dynamics]") {
   }
   CHECK(!watch.growing());
 
+  // nothing of what came before an interruption counts
+  const Motion quick({{0.1, 1.001, 0.1}});
+  VibrationWatch brief;
+  for (int n = 0; n < 200; ++n) {
+    if (n % 50 == 0) brief.interrupt();
+    brief.add(quick.at(n));
+  }
+  CHECK(!brief.growing());
+  CHECK(watched(quick, 200));
+
   // a disturbance that nobody tells of is not mistaken for growth
   VibrationWatch surprised;
   for (int n = 0; n < 120; ++n) surprised.add((n < 70 ? 1 : 2) * decaying.at(n));
   CHECK(!surprised.growing());
+  VibrationWatch driven;  // by a jolt in every period
+  for (int n = 0; n < 200; ++n) driven.add(Motion({{0.1 * std::pow(1.3, n / 25), 1, 0.04}}).at(n));
+  CHECK(!driven.growing());
 
   // what has been found before an interruption is remembered
   const Motion growing({{0.1, 1.003, 0.021}});
