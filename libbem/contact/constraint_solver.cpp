@@ -239,7 +239,9 @@ void ConstraintSolver::move(const Direction& direction, double step) {
 /// away; then none are a better start.
 void ConstraintSolver::choose_start() {
   const std::vector<Vec3> last = forces_;
-  const auto largest = [this] { return contact_displacements().cwiseAbs().maxCoeff(); };
+  const auto largest = [this] {  // of all contacts, whatever their tangents are
+    return contact_displacements().reshaped(3, forces_.size()).colwise().norm().maxCoeff();
+  };
   double with = kUnknown;
   if (largest_turn(last) <= kMostTurn) {
     update();
@@ -254,7 +256,7 @@ void ConstraintSolver::choose_start() {
 ConstraintSolver::Direction ConstraintSolver::find_direction(ContactProblem& problem,
                                                              const State& state, double goal,
                                                              ConstraintStatistics& statistics) {
-  constexpr double kInexactness = 0.01, kSufficient = 0.1;
+  constexpr double kInexactness = 0.01, kSufficient = 0.1, kRounding = 1e-13;
   Direction d;
   for (std::size_t m = 0; m < mechanisms_.size(); ++m)
     d.joints.emplace_back(state.gaps[m].size() == 0
@@ -264,6 +266,7 @@ ConstraintSolver::Direction ConstraintSolver::find_direction(ContactProblem& pro
   problem.linearise(state.u, start, d.joints);
   FrictionOptions options;
   options.method = options_.method;
+  options.tolerance = kRounding;  // what counts is how far contacts are from their places
   options.absolute_tolerance = std::max(0.1 * goal, kInexactness * state.contact_residual);
   options.sufficient =
       std::max(3 * options.absolute_tolerance, kSufficient * state.contact_residual);

@@ -20,11 +20,11 @@ class OddContacts(SimulationCase):
         program("bemprecomp", self.folder / "c.obj", self.folder / "m.json", "-o", self.folder / f"{name}.bem",
                 "--dt", 0.004, "--model", "rigid", "--quiet", "--force")
 
-    def run_bodies(self, *bodies, unit=1.0, friction=0.5):
+    def run_bodies(self, *bodies, unit=1.0, friction=0.5, tolerance=1e-6):
         floor = {"name": "floor", "friction": friction, "plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}
         named = [{"name": f"b{i}", "friction": friction, **body} for i, body in enumerate(bodies)]
         scene = {"version": 1, "time_step": 0.004 * math.sqrt(unit), "duration": 0.6 * math.sqrt(unit),
-                 "gravity": [0, 0, -9.81], "contact": {"tolerance": 1e-6 * unit}, "obstacles": [floor], "bodies": named}
+                 "gravity": [0, 0, -9.81], "contact": {"tolerance": tolerance * unit}, "obstacles": [floor], "bodies": named}
         stats = self.folder / "stats.json"
         done = self.simulate("--stats", stats, "--force", scene=scene)
         self.assertNotIn("warning", done.stderr)
@@ -54,6 +54,11 @@ class OddContacts(SimulationCase):
                 self.run_bodies({"archive": "cube.bem", "position": [0, 0, 0.1], "velocity": [2, 0, 0]},
                                 {"archive": "cube.bem", "position": [0.05, 0.02, 0.31], "velocity": [-2, 0, -1]},
                                 friction=friction)
+
+    def test_a_tolerance_near_rounding(self):
+        self.cube("cube")
+        self.run_bodies({"archive": "cube.bem", "position": [0, 0, 0.2], "rotation": CORNER_DOWN},
+                        {"archive": "cube.bem", "position": [0.5, 0, 0.2], "velocity": [0.5, -2, -3]}, tolerance=1e-12)
 
     def test_a_thousand_times_the_mass_on_top(self):
         self.cube("light")
