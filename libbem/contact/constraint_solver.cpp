@@ -256,7 +256,8 @@ void ConstraintSolver::choose_start() {
 ConstraintSolver::Direction ConstraintSolver::find_direction(ContactProblem& problem,
                                                              const State& state, double goal,
                                                              ConstraintStatistics& statistics) {
-  constexpr double kInexactness = 0.01, kSufficient = 0.1, kRounding = 1e-13;
+  constexpr double kInexactness = 0.01, kSufficient = 0.1;
+  constexpr double kRounding = 1e-13, kHard = 1e-8;  // of the way without contact forces
   Direction d;
   for (std::size_t m = 0; m < mechanisms_.size(); ++m)
     d.joints.emplace_back(state.gaps[m].size() == 0
@@ -266,7 +267,8 @@ ConstraintSolver::Direction ConstraintSolver::find_direction(ContactProblem& pro
   problem.linearise(state.u, start, d.joints);
   FrictionOptions options;
   options.method = options_.method;
-  options.tolerance = kRounding;  // what counts is how far contacts are from their places
+  options.tolerance = kRounding;
+  options.sufficient_error = kHard;
   options.absolute_tolerance = std::max(0.1 * goal, kInexactness * state.contact_residual);
   options.sufficient =
       std::max(3 * options.absolute_tolerance, kSufficient * state.contact_residual);

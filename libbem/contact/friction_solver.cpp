@@ -19,8 +19,9 @@ SetResult solve_set(const ContactSet& set, const FrictionOptions& options, BestF
       return solve_nsgs(set, tolerance, options, best);
     case FrictionMethod::newton:
       return solve_newton(set, tolerance,
-                          std::max(tolerance, options.sufficient / set.displacement_unit), options,
-                          best);
+                          std::max({tolerance, options.sufficient / set.displacement_unit,
+                                    options.sufficient_error}),
+                          options, best);
   }
   return {};
 }

@@ -21,8 +21,9 @@ struct FrictionOptions {
   FrictionMethod method = FrictionMethod::newton;
   double tolerance = 1e-8;        ///< of the error
   double absolute_tolerance = 0;  ///< of |e| in the unit of q [m]: a set at or below it is solved
-  /// |e| [m] of a set that is not worth the fallbacks of `newton` once its fast stages have failed.
-  double sufficient = 0;
+  /// |e| [m] and error of a set that are not worth the fallbacks of `newton` once its fast stages
+  /// have failed.
+  double sufficient = 0, sufficient_error = 0;
   int max_sweeps = 2000;        ///< Gauss-Seidel sweeps (staggered, nsgs)
   int max_newton_steps = 1000;  ///< linear solves (newton)
 };

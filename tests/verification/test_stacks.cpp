@@ -11,7 +11,7 @@ using namespace bem_test;
 namespace {
 
 struct StackRun {
-  double moved = 0;        ///< largest horizontal way of the topmost cube [m]
+  double moved = 0;        ///< largest horizontal way of the topmost cube, of the height
   double sunk = 0;         ///< and its way down at the end [m]
   double speed = 0;        ///< largest speed of a cube at the end [m/s]
   double penetration = 0;  ///< largest [m]
@@ -46,6 +46,7 @@ StackRun stack(bool rigid, const std::vector<double>& densities, double duration
     run.penetration = std::max(run.penetration, simulation.statistics().penetration);
     run.unconverged += !simulation.statistics().converged();
   }
+  run.moved /= 0.2 * static_cast<double>(densities.size());
   for (const Body& b : simulation.bodies())
     run.speed = std::max(run.speed, b.frame().velocity().norm());
   run.seconds = simulation.times().constraints / static_cast<double>(simulation.steps());
