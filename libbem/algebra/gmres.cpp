@@ -82,7 +82,6 @@ class Krylov {
 template <class T>
 GmresResult gmres(const ColumnOperator<T>& apply, const ColumnsOf<T>& b, ColumnsOf<T>& x,
                   const GmresOptions& options, const ColumnOperator<T>& precondition) {
-  constexpr int kPatience = 15;  // iterations in which the residual has to halve
   ColumnsOf<T> rest = b;
   if (!x.isZero(0)) rest -= apply(x);
   std::vector<Krylov<T>> spaces;
@@ -98,8 +97,8 @@ GmresResult gmres(const ColumnOperator<T>& apply, const ColumnsOf<T>& b, Columns
       if (space.is_open() && space.residual() > options.tolerance) open.push_back(c);
     }
     past.push_back(result.residual);
-    const bool stalled =
-        past.size() > kPatience && result.residual > 0.5 * past[past.size() - 1 - kPatience];
+    const bool stalled = result.iterations >= options.patience &&
+                         result.residual > 0.5 * past[past.size() - 1 - options.patience];
     if (open.empty() || stalled || result.iterations >= options.most_iterations) break;
     ColumnsOf<T> inputs(b.rows(), static_cast<Eigen::Index>(open.size()));
     for (std::size_t i = 0; i < open.size(); ++i)

@@ -9,6 +9,7 @@ namespace bem {
 struct GmresOptions {
   double tolerance = 1e-12;  ///< of the residual, relative to the right-hand side
   int most_iterations = 200;
+  int patience = 15;  ///< iterations in which the residual has to halve, else rounding is to blame
 };
 
 /// How the solution of several systems went.

@@ -140,6 +140,7 @@ Columns orthonormal_rigid(const Columns& rigid) {
 
 void compute_balance(BodyModel& model) {
   constexpr double kAcceptable = 1e-4;
+  constexpr int kMostIterations = 300, kPatience = 60;  // bending of thin bodies comes late
   const bool full = model.codec == Codec::none && model.precision == Precision::float64;
   const double tolerance = full ? 1e-13 : 1e-9;  // beyond what the matrices know
   const ElasticSystem system(model, 1);
@@ -173,8 +174,8 @@ void compute_balance(BodyModel& model) {
         mean[a] * scales.segment(6 * a, 6).cwiseInverse().asDiagonal().toDenseMatrix();
   const Eigen::VectorXd sizes = wanted.colwise().norm();
   Columns solution = Columns::Zero(wanted.rows(), 6);
-  const GmresResult result =
-      gmres<double>(apply, wanted * sizes.cwiseInverse().asDiagonal(), solution, {tolerance, 300});
+  const GmresResult result = gmres<double>(apply, wanted * sizes.cwiseInverse().asDiagonal(),
+                                           solution, {tolerance, kMostIterations, kPatience});
   if (!(result.residual <= kAcceptable))
     throw Error(ErrorCode::numerical,
                 "the static balance of the body cannot be computed: its matrices are too "
