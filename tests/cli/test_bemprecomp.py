@@ -218,6 +218,11 @@ class Messages(CliCase):
                 self.assertIn(word, done.stdout)
         self.assertEqual(self.files(), INPUTS)
 
+    def test_dry_run_of_short_steps_does_not_wait_for_them(self):
+        done = self.run_tool("sphere.obj", "rubber.json", "--dt", "2e-5", "--dry-run")  # takes seconds, a run hours
+        self.assertRegex(done.stdout, r"archive size: +less than .* MB")
+        self.assertRegex(done.stdout, r"time: +about [0-9]+ h")
+
     def test_stats(self):
         self.precompute("--stats", "s.json", "--threads", "1")
         stats = json.loads((self.folder / "s.json").read_text())

@@ -66,10 +66,58 @@ void plan_storage(const Options& o, Plan& plan) {
   }
 }
 
+/// Of a few rows on each thread; a single one has to allocate, too.
+template <class T>
+double seconds_per_row(const BodyGeometry& geometry, const Discretisation& discretisation,
+                       std::size_t rows_per_thread) {
+  const RowAssembler assembler(geometry.nodes, geometry.extent, discretisation);
+  const std::size_t nodes = geometry.nodes.vertices.size();
+  const std::size_t rows =
+      std::min(nodes, rows_per_thread * static_cast<std::size_t>(thread_count()));
+  const auto assemble = [&] {
+    parallel_for(rows, [&](std::size_t i) {
+      thread_local RowAssembler::Workspace work;
+      thread_local BlockRow<T> row;
+      assembler.assemble(static_cast<int>(i * nodes / rows), true, work, row);
+    });
+  };
+  if (rows_per_thread > 1) assemble();  // the first time allocates
+  return seconds_of(assemble) / static_cast<double>(rows);
+}
+
+/// Of the first row; with short time steps that of longer ones, times what lags and points of the
+/// quadrature grow by.
+double seconds_of_first_row(const Plan& plan) {
+  constexpr double kShort = 100;  // traversal steps
+  Discretisation d = plan.options.discretisation;
+  const double factor = std::max(1.0, plan.lam / kShort);
+  d.dt *= factor;
+  d.history_length = static_cast<int>(std::ceil(d.history_length / factor));
+  return seconds_per_row<float>(plan.geometry, d, 1) * std::pow(factor, 3);
+}
+
+/// Sizes of a dry run: by compressing a sample, or without compression if that takes too long.
+StoredEstimate estimate_compression(Plan& plan) {
+  constexpr double kSampledNodes = 384, kTooLong = 60;  // seconds
+  constexpr double kWithCompression = 1.5;              // of the time without
+  const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());
+  const double row = seconds_of_first_row(plan);
+  if (row * std::min(nodes, kSampledNodes) < kTooLong)
+    return estimate_stored(plan.geometry, plan.options);
+  plan.uncompressed = true;
+  PrecomputeOptions none = plan.options;
+  none.codec.codec = Codec::none;
+  StoredEstimate out = estimate_stored(plan.geometry, none);
+  out.assembly_bytes = out.bytes;
+  out.assembly_seconds = kWithCompression * row * nodes;
+  return out;
+}
+
 void estimate_bytes(bool sample, Plan& plan) {
   StoredEstimate stored;
-  if (plan.options.codec.codec != Codec::lowrank || sample) {
-    stored = estimate_stored(plan.geometry, plan.options);
+  const bool compressed = plan.options.codec.codec == Codec::lowrank;
+  if (!compressed || sample) {
+    stored = compressed ? estimate_compression(plan) : estimate_stored(plan.geometry, plan.options);
     plan.stored = stored.bytes;
     plan.compression_seconds = stored.assembly_seconds;
   }
@@ -98,24 +146,6 @@ void plan_history(const Options& o, Plan& plan) {
                 "the time step " + to_text(d.dt) + " s is too small: a shear wave takes " +
                     to_text(std::round(plan.lam)) + " steps across the body; use a larger --dt");
   d.history_length = history_length(o, d, plan.lam);
-}
-
-template <class T>
-double seconds_per_row(const Plan& plan) {
-  const RowAssembler assembler(plan.geometry.nodes, plan.geometry.extent,
-                               plan.options.discretisation);
-  const std::size_t nodes = plan.geometry.nodes.vertices.size();
-  const auto threads = static_cast<std::size_t>(thread_count());
-  const std::size_t rows = std::min(nodes, 4 * threads);
-  const auto assemble = [&] {
-    parallel_for(rows, [&](std::size_t i) {
-      thread_local RowAssembler::Workspace work;
-      thread_local BlockRow<T> row;
-      assembler.assemble(static_cast<int>(i * nodes / rows), true, work, row);
-    });
-  };
-  assemble();  // the first time allocates
-  return seconds_of(assemble) / static_cast<double>(rows);
 }
 
 /// Factorisation, inverse and, if asked for, solution for n right-hand sides, for one initial
@@ -198,9 +228,9 @@ TimeEstimate estimate_time(const Plan& plan) {
       plan.options.precision == Precision::float32 && d.quadrature_tolerance >= 1e-6;
   const bool dense = plan.options.inverse == InverseKind::dense;
   TimeEstimate t;
-  t.assembly =
-      compressed ? plan.compression_seconds
-                 : nodes * (single ? seconds_per_row<float>(plan) : seconds_per_row<double>(plan));
+  t.assembly = compressed ? plan.compression_seconds
+                          : nodes * (single ? seconds_per_row<float>(plan.geometry, d, 4)
+                                            : seconds_per_row<double>(plan.geometry, d, 4));
   for (const InitialComponent& c : d.scheme.initial_components())
     if (dense)
       t.inversion += c.paired ? seconds_of_inversion<Complex>(3 * nodes, !compressed)

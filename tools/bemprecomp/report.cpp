@@ -224,7 +224,8 @@ void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
   Table table(out);
   const Discretisation& d = plan.options.discretisation;
   print_body(table, plan.geometry, d.material);
-  table.line("archive size", bytes_text(plan.archive_bytes));
+  const char* bound = plan.uncompressed ? "less than " : "";  // a sample was too much to compress
+  table.line("archive size", bound, bytes_text(plan.archive_bytes));
   if (plan.options.kind == ModelKind::rigid) return;
   print_scheme(table, d, plan.lam);
   if (plan.options.kind == ModelKind::dynamic) {
@@ -232,7 +233,7 @@ void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
     table.line("n_max", d.history_length);
     table.line("time steps", time_steps_text(plan));
   }
-  table.line("memory", bytes_text(plan.stored), " of matrices, ", bytes_text(plan.peak),
+  table.line("memory", bound, bytes_text(plan.stored), " of matrices, ", bytes_text(plan.peak),
              " at most (the machine has ", bytes_text(static_cast<double>(physical_memory())), ")");
   table.line("time", "about ", seconds_text(time.total()), " on ", thread_count(),
              " threads (assembly ", seconds_text(time.assembly), ", inversion ",

@@ -93,7 +93,7 @@ Provenance provenance_of(const Options& o) {
 }
 
 int run_dry(const Plan& plan, Log& log) {
-  if (plan.peak > static_cast<double>(physical_memory()))
+  if (!plan.uncompressed && plan.peak > static_cast<double>(physical_memory()))
     log.warning("the machine has not enough memory for this");
   print_plan(std::cout, plan, estimate_time(plan));
   return 0;
