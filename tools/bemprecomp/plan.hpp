@@ -16,7 +16,7 @@ struct Plan {
   /// Bytes of the matrices, of the working set at most, and of the archive. What compression will
   /// leave is estimated for a dry run only, and zero otherwise.
   double stored = 0, peak = 0, archive_bytes = 0;
-  bool uncompressed = false;  ///< those of a dry run that would have to compress for too long
+  bool uncompressed = false;       ///< those of a dry run that would have to compress for too long
   double compression_seconds = 0;  ///< of assembly and compression, if that was estimated
   std::vector<std::string> warnings;
 };
