@@ -187,7 +187,7 @@ class Statistics(SimulationCase):
 
     def test_constraints_that_are_not_met(self):
         self.touching_scene()
-        self.scene["contact"]["tolerance"] = 1e-14  # rounding alone is more
+        self.scene["contact"]["tolerance"] = 1e-18  # rounding alone is more
         file = self.folder / "stats.json"
         done = self.simulate("--stats", file)
         stats = json.loads(file.read_text())
@@ -198,7 +198,7 @@ class Statistics(SimulationCase):
         lines = [line for line in done.stderr.splitlines() if line.startswith("warning: ")]
         self.assertEqual(len(lines), 1, done.stderr)
         self.assertEqual([lines[0][len("warning: "):]], stats["warnings"])
-        for part in (f"in {missed} of 20 steps", "shorter time step", "contact tolerance, 1e-14 m"):
+        for part in (f"in {missed} of 20 steps", "shorter time step", "contact tolerance, 1e-18 m"):
             self.assertIn(part, lines[0])
         verbose = self.simulate("--verbose", "--force").stderr
         self.assertEqual(verbose.count("the constraints of the step to t = "), 1, verbose)
