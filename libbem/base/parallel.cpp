@@ -1,11 +1,11 @@
 #include "base/parallel.hpp"
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <thread>
-#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -24,16 +24,7 @@ ThreadLimit& thread_limit() {
   return limit;
 }
 
-std::function<void()>& interruption_check() {
-  static std::function<void()> check;
-  return check;
-}
-
 }  // namespace
-
-void set_interruption_check(std::function<void()> check) {
-  interruption_check() = std::move(check);
-}
 
 void set_thread_count(int n) {
   require(n >= 1, "thread count is at least 1");
@@ -49,9 +40,8 @@ int thread_count() {
 }
 
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
-  const std::function<void()>& check = interruption_check();
   const auto run = [&](std::size_t i) {
-    if (check) check();
+    check_interruption();
     body(i);
   };
   if (n == 1 || thread_count() == 1) {

@@ -1,6 +1,7 @@
 /// bemprecomp: turns a mesh and a material into a matrix archive.
 
 #include "archive/archive_reader.hpp"
+#include "base/interruption.hpp"
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
 #include "diff.hpp"

@@ -1,6 +1,7 @@
 /// bemsim: simulates a scene of bodies with matrix archives.
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
 #include "options.hpp"

@@ -1,7 +1,7 @@
 #include "run.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
+#include "base/interruption.hpp"
 #include "base/pending_file.hpp"
 #include "checkpoint.hpp"
 #include "mesh/describe.hpp"

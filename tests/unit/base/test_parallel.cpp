@@ -1,4 +1,5 @@
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "base/parallel.hpp"
 
 #include <atomic>
