@@ -24,6 +24,11 @@ struct ConstraintStatistics {
   bool contacts_complete = true;  ///< the motion breaks no contacts but those solved for
 
   bool converged() const { return joints_met && contacts_met && contacts_complete; }
+  void visit_state(StateArchive& state) {
+    state(contacts, iterations, sweeps, newton_steps, joints_met, contacts_met, contacts_complete);
+    state.any_numbers(joint_residual, contact_error, contact_residual, complementarity,
+                      penetration);
+  }
 };
 
 struct ConstraintOptions {

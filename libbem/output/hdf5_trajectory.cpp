@@ -42,19 +42,20 @@ Hdf5Dims chunk(const Hdf5Dims& extents) {
 
 /// Puts the trajectory of an earlier run aside. One that is aside already was left there by a run
 /// that ended before it had copied everything: it has all frames.
-std::optional<Hdf5File> set_aside(const std::string& directory,
-                                  const std::vector<TrajectoryBody>& bodies, std::size_t kept) {
+std::optional<TrajectoryFile> set_aside(const std::string& directory,
+                                        const std::vector<TrajectoryBody>& bodies,
+                                        std::size_t kept) {
   if (kept == 0) return std::nullopt;
   const std::string present = directory + "/" + kTrajectoryFile;
   const std::string aside = directory + "/" + kEarlierTrajectory;
   std::error_code code;
   const bool is_aside = std::filesystem::exists(aside, code);
-  std::optional<Hdf5File> file =
-      Hdf5File::open_growing(is_aside ? aside : present, ErrorCode::resources);
-  bool fits = file->dims("/time")[0] >= kept && file->children("/bodies").size() == bodies.size();
+  std::optional<TrajectoryFile> file;
+  file.emplace(is_aside ? aside : present, ErrorCode::resources);
+  bool fits = file->times().size() >= kept && file->body_count() == bodies.size();
   for (const TrajectoryBody& body : bodies)
-    fits = fits && file->dims(group(body) + "/positions")[1] == body.vertices &&
-           file->exists(group(body) + "/tractions") == body.tractions;
+    fits = fits && file->vertices(body.name) == body.vertices &&
+           file->has_tractions(body.name) == body.tractions;
   if (!fits)
     throw Error(ErrorCode::resources, file->path() + ": does not hold the frames to go on from");
   if (!is_aside) std::filesystem::rename(present, aside, code);
@@ -116,25 +117,25 @@ void Hdf5Trajectory::append(const std::string& path, const double* values) {
 }
 
 /// Frame by frame, as they were written: the bytes come out the same.
-void Hdf5Trajectory::copy_frames(const Hdf5File& earlier, std::size_t count) {
+void Hdf5Trajectory::copy_frames(const TrajectoryFile& earlier, std::size_t count) {
   Frame frame;
   frame.bodies.resize(bodies_.size());
   for (; frame.index < count; ++frame.index) {
-    earlier.read_rows("/time", frame.index, 1, &frame.time);
+    frame.time = earlier.times()[frame.index];
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       BodyFrame& body = frame.bodies[i];
-      const std::string path = group(bodies_[i]);
-      const auto read = [&](const std::string& name, double* values) {
-        earlier.read_rows(path + name, frame.index, 1, values);
+      const std::size_t vertices = bodies_[i].vertices;
+      const auto read = [&](const std::string& name, const Hdf5Dims& extents, double* values) {
+        earlier.read(bodies_[i].name, name, extents, frame.index, values);
       };
-      body.positions.resize(bodies_[i].vertices);
-      read("/positions", body.positions.data()->data());
-      read("/frame/translation", body.translation.data());
-      read("/frame/rotation", body.rotation.data());
+      body.positions.resize(vertices);
+      read("/positions", {vertices, 3}, body.positions.data()->data());
+      read("/frame/translation", {3}, body.translation.data());
+      read("/frame/rotation", {3, 3}, body.rotation.data());
       body.rotation.transposeInPlace();  // rows are read as columns
       if (!bodies_[i].tractions) continue;
-      body.tractions.resize(bodies_[i].vertices);
-      read("/tractions", body.tractions.data()->data());
+      body.tractions.resize(vertices);
+      read("/tractions", {vertices, 3}, body.tractions.data()->data());
     }
     write(frame);
   }

@@ -3,6 +3,7 @@
 #include "base/disk_reserve.hpp"
 #include "base/hdf5.hpp"
 #include "output/frame.hpp"
+#include "output/trajectory_file.hpp"
 
 #include <optional>
 #include <string>
@@ -47,10 +48,10 @@ class Hdf5Trajectory : public FrameWriter {
   void create_series(const std::string& path, const Hdf5Dims& extents, const char* units);
   void append(const std::string& path, const double* values);
   void create_contents();
-  void copy_frames(const Hdf5File& earlier, std::size_t count);
+  void copy_frames(const TrajectoryFile& earlier, std::size_t count);
 
   std::vector<TrajectoryBody> bodies_;
-  std::optional<Hdf5File> earlier_;  ///< while its frames are copied
+  std::optional<TrajectoryFile> earlier_;  ///< while its frames are copied
   Hdf5File file_;
   DiskReserve reserve_;
   std::size_t frame_bytes_ = 0;  ///< that a frame adds to the file at most

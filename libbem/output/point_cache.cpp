@@ -40,12 +40,16 @@ GrowingFile open_cache(const std::string& path, std::size_t vertices, std::size_
   file.read(found.data(), static_cast<std::streamsize>(found.size()));
   std::int32_t samples = 0;
   std::memcpy(&samples, found.data() + kSamplesAt, sizeof samples);
-  if (!file || found.compare(0, kSamplesAt, header(vertices), 0, kSamplesAt) != 0 ||
+  file.seekg(0, std::ios::end);
+  const auto bytes = static_cast<std::uint64_t>(file.tellg());
+  const std::uint64_t needed = kHeaderSize + kept * vertices * 3 * sizeof(float);
+  if (!file || bytes < needed ||
+      found.compare(0, kSamplesAt, header(vertices), 0, kSamplesAt) != 0 ||
       samples < static_cast<std::int32_t>(kept))
     throw Error(ErrorCode::resources, path + ": does not hold the frames to go on from");
   GrowingFile cache(path);
   cache.write(kSamplesAt, bytes_of(static_cast<std::int32_t>(kept)));
-  cache.truncate(kHeaderSize + kept * vertices * 3 * sizeof(float));
+  cache.truncate(needed);
   return cache;
 }
 

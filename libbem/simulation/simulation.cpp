@@ -349,7 +349,10 @@ void Simulation::end_step() {
 /// Contacts are found anew in every step.
 void Simulation::visit_state(StateArchive& state) {
   state(steps_, statistics_, momentum_, times_);
-  for (Body& body : bodies_) state(body);
+  for (Body& body : bodies_) {
+    state(body);
+    state.check(body.frame().step() == steps_);
+  }
   state(*constraints_);
 }
 

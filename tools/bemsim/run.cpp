@@ -93,7 +93,7 @@ class Run {
     timer_.begin(kLoadingPhase);
     if (options.resume || options.checkpoint_every > 0) identity_ = identity_of(plan, options);
     std::unique_ptr<StateReader> earlier;
-    if (options.resume) earlier = open_checkpoint(options.output, identity_, plan.steps);
+    if (options.resume) earlier = open_checkpoint(options.output, identity_, plan.steps, saved_);
     simulation_ = std::make_unique<Simulation>(plan.scene, source);
     check_interrupt();
     bar_.finish();
@@ -158,7 +158,8 @@ class Run {
   void restore(StateReader& earlier) {
     earlier(statistics_, timer_, *simulation_);
     earlier.finish();
-    saved_ = simulation_->steps();
+    earlier.check(simulation_->steps() == saved_ && saved_ >= 0 &&
+                  statistics_.frames() == plan_.schedule.count(saved_));
     log_.info("going on from t = " + to_text(simulation_->time()) + " s: " + progress());
     timer_.begin(kLoadingPhase);
   }
