@@ -3,7 +3,7 @@
 
 #include "base/parallel.hpp"
 #include "fuzz_scene.hpp"
-#include "memory_file.hpp"
+#include "support/archives.hpp"
 #include "target.hpp"
 
 extern "C" std::uint32_t H5_checksum_lookup3(const void* data, std::size_t size,
@@ -47,11 +47,13 @@ std::uint64_t number_at(const std::string& bytes, std::size_t at, std::size_t si
 }  // namespace
 
 bool run(const std::string& input) {
+  static const bem::test::TemporaryFolder folder("fuzz_archive");
   bem::set_thread_count(1);
-  const MemoryFile file(std::string(bem::kUserBlock, '\0') + input);
+  const std::string path = folder / "a.bem";
+  bem_test::write_bytes(path, std::string(bem::kUserBlock, '\0') + input);
   return accepted([&] {
-    bem::seal_archive(file.path());
-    const bem::Archive archive(file.path());
+    bem::seal_archive(path);
+    const bem::Archive archive(path);
     archive.check_matrices();
     archive.load_all();
     simulate(archive);

@@ -43,9 +43,14 @@ void materials(const fs::path& folder) {
 }
 
 void scenes(const fs::path& folder, const fs::path& from) {
-  for (const auto& entry : fs::recursive_directory_iterator(from))
-    if (entry.path().extension() == ".json" && entry.file_size() < 6000)
-      fs::copy_file(entry.path(), folder / entry.path().filename());
+  constexpr std::size_t kMostBytes = 6000;
+  for (const auto& entry : fs::recursive_directory_iterator(from)) {
+    if (entry.path().extension() != ".json") continue;
+    const std::string text = bytes_of(entry.path());
+    if (text.size() > kMostBytes || text.find("\"bodies\"") == std::string::npos) continue;
+    const std::string name = entry.path().parent_path().filename().string();
+    write(folder / (name + "-" + entry.path().filename().string()), text);
+  }
 }
 
 void archive(const fs::path& folder, const std::string& name, const BodyModel& model) {

@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   const std::vector<std::string> inputs = read_folder(argv[1]);
   for (const std::string& input : inputs)
     if (!bem_fuzz::run(input)) {
-      std::fprintf(stderr, "a seed was refused\n");
+      std::fprintf(stderr, "a seed was refused: %s\n", bem_fuzz::last_refusal.c_str());
       return 1;
     }
   long refused = 0;

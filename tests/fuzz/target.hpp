@@ -20,6 +20,9 @@ bool run(const std::string& input);
 /// Makes a changed input such that it gets past checksums, if the format has any.
 std::string repaired(std::string input);
 
+/// What the last input was refused for.
+inline std::string last_refusal;
+
 /// Calls f and returns true, or false if f refuses with an Error of the codes that input may cause.
 template <class F>
 bool accepted(const F& f) {
@@ -30,7 +33,8 @@ bool accepted(const F& f) {
     const bool fault_of_input = e.code() == bem::ErrorCode::invalid_input ||
                                 e.code() == bem::ErrorCode::archive ||
                                 e.code() == bem::ErrorCode::numerical;
-    if (fault_of_input && std::string(e.what()).size() < 4000) return false;
+    last_refusal = e.what();
+    if (fault_of_input && last_refusal.size() < 4000) return false;
     std::fprintf(stderr, "refused with code %d: %s\n", static_cast<int>(e.code()), e.what());
     std::abort();
   }
