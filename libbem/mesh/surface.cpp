@@ -50,11 +50,4 @@ Surface make_surface(TriangleMesh input, const std::string& source_name) {
   return surface;
 }
 
-TriangleMesh make_open_surface(const TriangleMesh& input, const std::string& source_name) {
-  check_elements(input, source_name);
-  TriangleMesh nodes = weld(input).mesh;
-  check_open_surface(input, nodes, source_name);
-  return nodes;
-}
-
 }  // namespace bem

@@ -51,8 +51,7 @@ void check_areas(const TriangleMesh& input, const TriangleMesh& nodes, const std
          count_text(bad.count, "such triangle"), "collapse or remove them");
 }
 
-void check_edges(const TriangleMesh& input, const TriangleMesh& nodes, const std::string& source,
-                 bool may_be_open) {
+void check_edges(const TriangleMesh& input, const TriangleMesh& nodes, const std::string& source) {
   Found open, crowded, turned;
   std::size_t crowd = 0;
   const std::vector<HalfEdge> half_edges = sorted_half_edges(nodes.triangles);
@@ -70,7 +69,7 @@ void check_edges(const TriangleMesh& input, const TriangleMesh& nodes, const std
                std::to_string(crowd) + " triangles instead of 2",
            count_text(crowded.count, "such edge"),
            "remove inner and repeated faces, or move touching parts a little apart");
-  if (open.count > 0 && !may_be_open)
+  if (open.count > 0)
     refuse(source,
            "open boundary: " + edge_text(input, open.first) + " has no triangle on its other side",
            count_text(open.count, "such edge"), "close the holes of the surface");
@@ -143,14 +142,8 @@ void check_elements(const TriangleMesh& input, const std::string& source) {
 void check_closed_manifold(const TriangleMesh& input, const TriangleMesh& nodes,
                            const std::string& source) {
   check_areas(input, nodes, source);
-  check_edges(input, nodes, source, false);
+  check_edges(input, nodes, source);
   check_fans(input, nodes, source);
-}
-
-void check_open_surface(const TriangleMesh& input, const TriangleMesh& nodes,
-                        const std::string& source) {
-  check_areas(input, nodes, source);
-  check_edges(input, nodes, source, true);
 }
 
 void warn_thin_triangles(const TriangleMesh& input, const TriangleMesh& nodes,

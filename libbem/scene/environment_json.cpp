@@ -16,6 +16,15 @@ PlaneObstacle read_plane(const JsonValue& value) {
   return plane;
 }
 
+/// One factor for all axes, or three.
+Vec3 read_scale(const JsonValue& value) {
+  if (value.kind() == JsonKind::number) return Vec3::Constant(value.positive());
+  if (value.kind() != JsonKind::array) throw value.unexpected("a number > 0, or three of them");
+  const Vec3 scale = value.vec3();
+  if (!(scale.array() > 0).all()) throw value.error("expected three numbers > 0");
+  return scale;
+}
+
 std::size_t body_named(const JsonValue& value, const std::vector<BodySpec>& bodies) {
   const std::string name = value.text();
   std::vector<std::string> names;
@@ -64,12 +73,14 @@ ObstacleSpec read_obstacle(const JsonValue& value) {
   obstacle.name = read_name(reader.required("name"));
   if (reader.required_one_of({"plane", "mesh"}) == "plane") {
     obstacle.shape = read_plane(reader.required("plane"));
-    for (const char* key : {"position", "motion"})
+    for (const char* key : {"scale", "position", "rotation", "motion"})
       reader.refuse(key, "is allowed only beside \"mesh\"");
   } else {
     MeshObstacle mesh;
     mesh.mesh = read_path(reader.required("mesh"));
+    if (const auto scale = reader.optional("scale")) mesh.scale = read_scale(*scale);
     if (const auto position = reader.optional("position")) mesh.position = position->vec3();
+    if (const auto rotation = reader.optional("rotation")) mesh.rotation = read_rotation(*rotation);
     if (const auto motion = reader.optional("motion")) mesh.motion = read_motion(*motion);
     obstacle.shape = mesh;
   }

@@ -1,10 +1,11 @@
 #include "measure.hpp"
 
 #include "contact/self_penetration.hpp"
+#include "contact/surface_overlap.hpp"
 #include "mesh/extent.hpp"
 #include "mesh/mass_properties.hpp"
 #include "mesh/mesh_io.hpp"
-#include "mesh/surface.hpp"
+#include "mesh/obstacle_surface.hpp"
 #include "scene/motion.hpp"
 
 #include <algorithm>
@@ -57,8 +58,10 @@ class Measurement {
       : scene_(scene), trajectory_(trajectory), self_(options.self) {
     for (const ObstacleSpec& o : scene.obstacles) {
       const auto* shape = std::get_if<MeshObstacle>(&o.shape);
-      obstacles_.push_back(shape ? make_open_surface(read_mesh(shape->mesh.resolved), o.name)
-                                 : TriangleMesh());
+      obstacles_.push_back(
+          shape
+              ? make_obstacle_surface(scaled(read_mesh(shape->mesh.resolved), shape->scale), o.name)
+              : ObstacleSurface());
     }
     for (const JointSpec& joint : scene.joints)
       if (joint.b) joined_.insert(std::minmax(joint.a.body, joint.b->body));
@@ -139,16 +142,29 @@ class Measurement {
                     deepest_penetration(b.vertices, a.triangles, a.vertices).depth);
   }
 
+  /// A sheet has no inside that a body could be in.
+  static double sheet_in_body(const TriangleMesh& sheet, const TriangleMesh& body) {
+    return surface_overlap(SignedDistance(sheet.triangles, sheet.vertices),
+                           SignedDistance(body.triangles, body.vertices), 0);
+  }
+
   double in_obstacle(const TriangleMesh& body, const BoundingBox& box, std::size_t o,
                      double time) const {
     const auto& shape = scene_.obstacles[o].shape;
     if (const auto* plane = std::get_if<PlaneObstacle>(&shape))
       return deepest_penetration(body.vertices, CollisionPlane{plane->point, plane->normal}).depth;
     const auto& spec = std::get<MeshObstacle>(shape);
-    const RigidMotion motion = motion_at(spec.motion, time);
-    TriangleMesh moved = obstacles_[o];
-    for (Vec3& v : moved.vertices) v = motion.apply(v + spec.position);
-    return overlap(box, bounding_box(moved.vertices)) ? mutual(body, moved) : 0;
+    const auto place = [&](TriangleMesh mesh) {
+      mesh.vertices = placed_at(spec, mesh.vertices, time);
+      return mesh;
+    };
+    const TriangleMesh solid = place(obstacles_[o].solid),
+                       sheet = place(obstacles_[o].sheet.layers);
+    double depth = 0;
+    if (overlap(box, bounding_box(solid.vertices))) depth = mutual(body, solid);
+    if (overlap(box, bounding_box(sheet.vertices)))
+      depth = std::max(depth, sheet_in_body(sheet, body));
+    return depth;
   }
 
   void record(const std::vector<std::size_t>& bodies, const std::string& names, double depth,
@@ -191,7 +207,7 @@ class Measurement {
   const Scene& scene_;
   const Trajectory& trajectory_;
   bool self_;
-  std::vector<TriangleMesh> obstacles_;  ///< as read; empty for planes
+  std::vector<ObstacleSurface> obstacles_;  ///< empty for planes
   std::set<std::pair<std::size_t, std::size_t>> joined_;
   std::vector<BodyRecord> records_;
   std::vector<TriangleMesh> previous_;

@@ -65,7 +65,10 @@ int run(int argc, char** argv, bem::Log& log) {
   });
   const auto plan = bem::make_plan(*options, std::move(scene), source);
   for (const std::string& warning : plan->warnings) log.warning(warning);
-  if (options->action == Options::Action::check) bem::print_plan(std::cout, *plan);
+  if (options->action == Options::Action::check)
+    bem::print_plan(std::cout, *plan);
+  else
+    for (const std::string& note : plan->notes) log.info(note);
   bem::check_memory(*plan);
   if (options->action == Options::Action::check) return 0;
   return bem::run_simulation(*plan, source, *options, log);

@@ -101,7 +101,7 @@ class Run {
                 " of matrices from " + count_text(simulation_->archives(), "archive"));
     for (const CollisionScene::Overlap& o : simulation_->overlaps())
       log_.warning(in_quotes(o.a) + " and " + in_quotes(o.b) + " overlap at the start, by " +
-                   to_text(o.depth) + " m; move them apart");
+                   rounded_text(o.depth, 3) + " m; move them apart");
     if (earlier) restore(*earlier);
     prepare_output_directory(options.output, options.resume  ? ExistingOutput::keep
                                              : options.force ? ExistingOutput::replace
@@ -116,7 +116,7 @@ class Run {
     } catch (const Interrupted& e) {
       save_early();
       finish_early("interrupted");
-      throw Interrupted(e.signal(), "; " + progress());
+      throw Interrupted(e.signal(), (abandoned_ ? " within a step; " : "; ") + progress());
     } catch (const Error& e) {
       finish_early("failed");
       throw Error(e.code(), std::string(e.what()) + "; " + progress());
@@ -127,7 +127,7 @@ class Run {
 
  private:
   void advance() {
-    set_interruption_check(nullptr);  // a step that has begun is finished
+    set_interruption_check(check_overdue_interrupt);  // a step that has begun may end
     if (statistics_.frames() == 0) write_frame();
     while (simulation_->steps() < plan_.steps) {
       check_interrupt();
@@ -147,11 +147,15 @@ class Run {
   void step() {
     try {
       simulation_->step();
+    } catch (const Interrupted&) {
+      abandoned_ = true;
+      throw;
     } catch (const Error& e) {
       if (e.code() != ErrorCode::numerical || simulation_->statistics().converged()) throw;
+      const std::string impossible = plan_.impossible(simulation_->time());
       throw Error(e.code(),
-                  std::string(e.what()) +
-                      ": the constraints of the step were not met, use a shorter time step");
+                  std::string(e.what()) + ": the constraints of the step were not met, " +
+                      (impossible.empty() ? "use a shorter time step" : "because " + impossible));
     }
   }
 
@@ -172,10 +176,11 @@ class Run {
     saved_ = steps;
   }
 
-  /// Without a checkpoint the last one is still there.
+  /// Without a checkpoint the last one is still there. A step that was abandoned leaves no state to
+  /// save.
   void save_early() {
     try {
-      if (options_.checkpoint_every > 0) save();
+      if (options_.checkpoint_every > 0 && !abandoned_) save();
     } catch (const Error& e) {
       log_.warning(e.what());
     }
@@ -226,8 +231,9 @@ class Run {
   const Plan& plan_;
   const Options& options_;
   Log& log_;
-  RunIdentity identity_;  ///< where there are checkpoints
-  long saved_ = -1;       ///< step of the last checkpoint
+  RunIdentity identity_;    ///< where there are checkpoints
+  long saved_ = -1;         ///< step of the last checkpoint
+  bool abandoned_ = false;  ///< the last step has not come to its end
   RunStatistics statistics_;
   PhaseTimer timer_;
   ProgressBar bar_;

@@ -64,7 +64,8 @@ std::optional<std::string> RunStatistics::record_step(const Simulation& simulati
 std::vector<std::string> RunStatistics::warnings(const Plan& plan,
                                                  const Simulation& simulation) const {
   std::vector<std::string> out = vibrations_.warnings(simulation, plan.steps);
-  if (const auto unmet = unmet_.warning(simulation.steps(), plan.scene.contact))
+  if (const auto unmet = unmet_.warning(simulation.steps(), plan.scene.contact,
+                                        plan.impossible(simulation.time())))
     out.push_back(*unmet);
   return out;
 }
