@@ -7,6 +7,7 @@ import signal
 import subprocess
 import time
 import unittest
+import zipfile
 
 import h5py
 import numpy
@@ -96,6 +97,34 @@ class Messages(MeshCase):
             with self.subTest(name):
                 self.assert_error(self.rigid(self.write(name, text), code=3),
                                   f"{name}: {part} is a format that is not supported", "OBJ, OFF, PLY, STL")
+
+    def test_a_3mf_file_is_read_or_not_supported_but_not_damaged(self):
+        triangles = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        space = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+        package = "http://schemas.openxmlformats.org/package/2006"
+        model = (f'<?xml version="1.0"?><model unit="meter" xmlns="{space}"><resources><object id="1" type="model"><mesh>'
+                 + "<vertices>" + "".join('<vertex x="%d" y="%d" z="%d"/>' % c for c in corners) + "</vertices><triangles>"
+                 + "".join('<triangle v1="%d" v2="%d" v3="%d"/>' % t for t in triangles)
+                 + '</triangles></mesh></object></resources><build><item objectid="1"/></build></model>')
+        types = (f'<?xml version="1.0"?><Types xmlns="{package}/content-types"><Default Extension="rels" ContentType='
+                 '"application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType='
+                 '"application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>')
+        relations = (f'<?xml version="1.0"?><Relationships xmlns="{package}/relationships"><Relationship Id="r" Target='
+                     '"/3D/3dmodel.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>')
+        for name, preview in [("plain.3mf", None), ("preview.3mf", b"\x89PNG")]:
+            with zipfile.ZipFile(self.folder / name, "w") as file:
+                for part, text in [("[Content_Types].xml", types), ("_rels/.rels", relations), ("3D/3dmodel.model", model)]:
+                    file.writestr(part, text)
+                if preview:
+                    file.writestr("Metadata/thumbnail.png", preview)
+        self.rigid("plain.3mf")
+        self.assertAlmostEqual(self.archive()[2], 1 / 6, 9)
+        done = self.rigid("preview.3mf", code=3)
+        self.assert_error(done, "preview.3mf: ", "is a format that is not supported")
+        whole = (self.folder / "preview.3mf").read_bytes()
+        (self.folder / "cut.3mf").write_bytes(whole[:len(whole) // 2])
+        self.assertNotIn("not supported", self.rigid("cut.3mf", code=3).stderr)
 
     def test_edges_that_lie_on_each_other(self):
         vertices = U_VERTICES + [(x + 1e-10, y, z) for x, y, z in U_VERTICES[:8]]
