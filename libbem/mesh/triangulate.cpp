@@ -1,6 +1,7 @@
 #include "mesh/triangulate.hpp"
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/face_triangles.hpp"
 #include "mesh/weld.hpp"
@@ -48,6 +49,7 @@ class Triangulation {
 
   TriangleMesh run() {
     for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
+      check_interruption();
       first_triangle_.push_back(triangles_.size());
       append_face(f);
     }
