@@ -1,14 +1,14 @@
 #include "mesh/mesh_io.hpp"
 
 #include "base/error.hpp"
+#include "base/file_io.hpp"
+#include "base/pending_file.hpp"
 #include "mesh/assimp_reader.hpp"
 #include "mesh/obj_reader.hpp"
 
 #include <cctype>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace bem {
 namespace {
@@ -28,12 +28,9 @@ std::string read_text(const std::string& path) {
   const auto status = std::filesystem::status(path, code);
   if (!std::filesystem::exists(status)) refuse(path, "no such mesh file");
   if (std::filesystem::is_directory(status)) refuse(path, "is a directory, not a mesh file");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
-  if (file.bad() || !file.is_open())
-    throw Error(ErrorCode::resources, path + ": the mesh file cannot be read");
-  return std::move(text).str();
+  std::string text;
+  check_io(read_all(path, text), path, "the mesh file cannot be read");
+  return text;
 }
 
 void append_number(std::string& text, double value) {
@@ -49,7 +46,7 @@ TriangleMesh read_mesh(const std::string& path) {
   return read_with_assimp(path);
 }
 
-void write_obj(const std::string& path, const TriangleMesh& mesh) {
+std::string obj_text(const TriangleMesh& mesh) {
   std::string text;
   for (const Vec3& v : mesh.vertices) {
     text += "v";
@@ -61,10 +58,11 @@ void write_obj(const std::string& path, const TriangleMesh& mesh) {
     for (int v : t) text += " " + std::to_string(v + 1);
     text += "\n";
   }
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(ErrorCode::resources, path + ": cannot be written");
+  return text;
+}
+
+void write_obj(const std::string& path, const TriangleMesh& mesh) {
+  PendingFile(path).commit(obj_text(mesh));
 }
 
 }  // namespace bem

@@ -135,3 +135,7 @@ TEST_CASE("VTP frames without their list cannot go on") {
       error_message(ErrorCode::resources, [&] { VtpSequence(folder.path(), sample_bodies(), 1); }),
       Contains("to go on from"));
 }
+
+TEST_CASE("what a checkpoint counts on is compared with the files of a VtpSequence") {
+  test::check_damage<VtpSequence>();
+}
