@@ -14,7 +14,7 @@
 
 namespace {
 
-/// The function of this name that is used without ours. Threads may look for it at once.
+/// The function of this name that is used without ours.
 template <class Function>
 class Hidden {
  public:
@@ -39,6 +39,17 @@ Hidden<void*(void*, std::size_t)> hidden_realloc("realloc");
 Hidden<void*(std::size_t, std::size_t)> hidden_aligned_alloc("aligned_alloc");
 Hidden<void*(std::size_t, std::size_t)> hidden_memalign("memalign");
 Hidden<int(void**, std::size_t, std::size_t)> hidden_posix_memalign("posix_memalign");
+
+/// Before threads and dlopen(): the loader itself calls realloc() while it changes the structures
+/// that dlsym() reads.
+[[gnu::constructor]] void find_all() {
+  hidden_malloc.get();
+  hidden_calloc.get();
+  hidden_realloc.get();
+  hidden_aligned_alloc.get();
+  hidden_memalign.get();
+  hidden_posix_memalign.get();
+}
 
 /// Who asks for more does so because a file says so, and reports it himself.
 constexpr std::size_t kVeryMuch = std::size_t(256) << 20;

@@ -36,7 +36,8 @@ TEST_CASE("an output directory is created with those above it") {
     const FolderLock lock = create_output_directory(folder / "a/b/c");
     CHECK(fs::is_directory(folder / "a/b/c"));
     CHECK_THAT(
-        error_message(ErrorCode::usage, [&] { create_output_directory(folder / "a/b/../b/c"); }),
+        error_message(ErrorCode::usage,
+                      [&] { static_cast<void>(create_output_directory(folder / "a/b/../b/c")); }),
         Contains("another process"));
   }
 }
@@ -45,7 +46,8 @@ TEST_CASE("an output directory that cannot be created is a resource error") {
   const test::TemporaryFolder folder("output_bad");
   touch(folder / "file");
   for (const std::string& directory : {folder / "file", folder / "file/below"})
-    CHECK_THAT(error_message(ErrorCode::resources, [&] { create_output_directory(directory); }),
+    CHECK_THAT(error_message(ErrorCode::resources,
+                             [&] { static_cast<void>(create_output_directory(directory)); }),
                StartsWith(directory + ": "));
 }
 
