@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/interruption.hpp"
+#include "base/pending_file.hpp"
 #include "mesh/assimp_reader.hpp"
 #include "mesh/mesh_format.hpp"
 #include "mesh/obj_reader.hpp"
@@ -77,7 +78,7 @@ TriangleMesh read_mesh(const std::string& path) {
   return triangulate(read_polygons(path), path);
 }
 
-void write_obj(const std::string& path, const TriangleMesh& mesh) {
+std::string obj_text(const TriangleMesh& mesh) {
   std::string text;
   for (const Vec3& v : mesh.vertices) {
     text += "v";
@@ -89,10 +90,11 @@ void write_obj(const std::string& path, const TriangleMesh& mesh) {
     for (int v : t) text += " " + std::to_string(v + 1);
     text += "\n";
   }
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(ErrorCode::resources, path + ": cannot be written");
+  return text;
+}
+
+void write_obj(const std::string& path, const TriangleMesh& mesh) {
+  PendingFile(path).commit(obj_text(mesh));
 }
 
 }  // namespace bem

@@ -20,8 +20,12 @@ namespace bem {
 /// ErrorCode::resources if it exists but must not be read. Calls check_interruption() all the time.
 TriangleMesh read_mesh(const std::string& path);
 
-/// Writes an OBJ file, overwriting an existing one. Coordinates are the shortest decimals that read
-/// back to the same double. Throws ErrorCode::resources if the file cannot be written.
+/// What an OBJ file of the mesh says. Coordinates are the shortest decimals that read back to the
+/// same double.
+std::string obj_text(const TriangleMesh& mesh);
+
+/// Writes an OBJ file; an existing one is replaced when it is complete. Throws ErrorCode::resources
+/// if the file cannot be written.
 void write_obj(const std::string& path, const TriangleMesh& mesh);
 
 }  // namespace bem

@@ -1,9 +1,9 @@
 #include "output/hdf5_trajectory.hpp"
 
 #include "base/error.hpp"
+#include "base/file_io.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 namespace bem {
@@ -16,10 +16,11 @@ constexpr std::size_t kBookkeeping = 1 << 16;    // of HDF5 for a frame, at most
 static_assert(sizeof(Vec3) == 3 * sizeof(double), "vectors are stored without gaps");
 static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t), "triangles are stored without gaps");
 
-Hdf5File create_file(const std::string& directory) {
+Hdf5File create_file(const std::string& path, const std::string& name) {
   Hdf5CreateOptions options;
+  options.name = name;
   options.swmr = true;
-  return Hdf5File::create(directory + "/" + kTrajectoryFile, options);
+  return Hdf5File::create(path, options);
 }
 
 std::string group(const TrajectoryBody& body) {
@@ -40,27 +41,56 @@ Hdf5Dims chunk(const Hdf5Dims& extents) {
   return result;
 }
 
-/// Puts the trajectory of an earlier run aside. One that is aside already was left there by a run
-/// that ended before it had copied everything: it has all frames.
-std::optional<Hdf5File> set_aside(const std::string& directory,
-                                  const std::vector<TrajectoryBody>& bodies, std::size_t kept) {
-  if (kept == 0) return std::nullopt;
-  const std::string present = directory + "/" + kTrajectoryFile;
-  const std::string aside = directory + "/" + kEarlierTrajectory;
-  std::error_code code;
-  const bool is_aside = std::filesystem::exists(aside, code);
-  std::optional<Hdf5File> file =
-      Hdf5File::open_growing(is_aside ? aside : present, ErrorCode::resources);
-  bool fits = file->dims("/time")[0] >= kept && file->children("/bodies").size() == bodies.size();
+/// The trajectory of an earlier run, which must hold some frames of the bodies.
+Hdf5File open_earlier(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+                      std::size_t frames) {
+  Hdf5File file =
+      Hdf5File::open_growing(directory + "/" + kTrajectoryFile, ErrorCode::invalid_input);
+  bool fits = file.dims("/time")[0] >= frames && file.children("/bodies").size() == bodies.size();
   for (const TrajectoryBody& body : bodies)
-    fits = fits && file->dims(group(body) + "/positions")[1] == body.vertices &&
-           file->exists(group(body) + "/tractions") == body.tractions;
+    fits = fits && file.dims(group(body) + "/positions")[1] == body.vertices &&
+           file.exists(group(body) + "/tractions") == body.tractions;
   if (!fits)
-    throw Error(ErrorCode::resources, file->path() + ": does not hold the frames to go on from");
-  if (!is_aside) std::filesystem::rename(present, aside, code);
-  if (code)
-    throw Error(ErrorCode::resources, aside + ": cannot be written (" + code.message() + ")");
+    throw Error(ErrorCode::invalid_input, file.path() + ": does not hold the frames to go on from");
   return file;
+}
+
+Frame read_frame(const Hdf5File& file, const std::vector<TrajectoryBody>& bodies,
+                 std::size_t index) {
+  Frame frame;
+  frame.index = index;
+  file.read_rows("/time", index, 1, &frame.time);
+  for (const TrajectoryBody& b : bodies) {
+    BodyFrame& body = frame.bodies.emplace_back();
+    const std::string path = group(b);
+    const auto read = [&](const std::string& name, double* values) {
+      file.read_rows(path + name, index, 1, values);
+    };
+    body.positions.resize(b.vertices);
+    read("/positions", body.positions.data()->data());
+    read("/frame/translation", body.translation.data());
+    read("/frame/rotation", body.rotation.data());
+    body.rotation.transposeInPlace();  // rows are read as columns
+    if (!b.tractions) continue;
+    body.tractions.resize(b.vertices);
+    read("/tractions", body.tractions.data()->data());
+  }
+  return frame;
+}
+
+void add_numbers(FileRecord& record, const double* values, std::size_t count) {
+  record.add({reinterpret_cast<const char*>(values), count * sizeof(double)});
+}
+
+/// The numbers of a frame, whatever HDF5 makes of them in the file.
+void add_frame(FileRecord& record, const Frame& frame) {
+  add_numbers(record, &frame.time, 1);
+  for (const BodyFrame& body : frame.bodies) {
+    add_numbers(record, body.positions.data()->data(), 3 * body.positions.size());
+    add_numbers(record, body.translation.data(), 3);
+    add_numbers(record, body.rotation.data(), 9);
+    add_numbers(record, body.tractions.data()->data(), 3 * body.tractions.size());
+  }
 }
 
 }  // namespace
@@ -68,15 +98,29 @@ std::optional<Hdf5File> set_aside(const std::string& directory,
 Hdf5Trajectory::Hdf5Trajectory(const std::string& directory, std::vector<TrajectoryBody> bodies,
                                std::size_t kept)
     : bodies_((check_bodies(bodies), std::move(bodies))),
-      earlier_(set_aside(directory, bodies_, kept)),
-      file_(create_file(directory)),
-      reserve_(file_.path()),
+      temporary_(directory + "/" + kTrajectoryFile),
+      file_(create_file(temporary_.path(), directory + "/" + kTrajectoryFile)),
+      reserve_(temporary_.path(), file_.path()),
       frame_bytes_(kBookkeeping) {
+  records_ = {{kTrajectoryFile, 0, {}}};
   create_contents();
-  if (!earlier_) return;
-  copy_frames(*earlier_, kept);
-  earlier_.reset();
-  std::filesystem::remove(directory + "/" + kEarlierTrajectory);
+  if (kept > 0) {
+    // Frame by frame, as they were written: the bytes come out the same.
+    const Hdf5File earlier = open_earlier(directory, bodies_, kept);
+    while (frames_ < kept) write(read_frame(earlier, bodies_, frames_));
+    file_.sync();  // a checkpoint counts on them
+  }
+  temporary_.publish();
+}
+
+FileRecords Hdf5Trajectory::read_records(const std::string& directory,
+                                         const std::vector<TrajectoryBody>& bodies,
+                                         std::size_t frames) {
+  FileRecords records{{kTrajectoryFile, 0, {}}};
+  if (frames == 0) return records;
+  const Hdf5File file = open_earlier(directory, bodies, frames);
+  for (std::size_t i = 0; i < frames; ++i) add_frame(records[0], read_frame(file, bodies, i));
+  return records;
 }
 
 void Hdf5Trajectory::create_contents() {
@@ -115,31 +159,6 @@ void Hdf5Trajectory::append(const std::string& path, const double* values) {
   file_.write_rows(path, frames_, 1, values);
 }
 
-/// Frame by frame, as they were written: the bytes come out the same.
-void Hdf5Trajectory::copy_frames(const Hdf5File& earlier, std::size_t count) {
-  Frame frame;
-  frame.bodies.resize(bodies_.size());
-  for (; frame.index < count; ++frame.index) {
-    earlier.read_rows("/time", frame.index, 1, &frame.time);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      BodyFrame& body = frame.bodies[i];
-      const std::string path = group(bodies_[i]);
-      const auto read = [&](const std::string& name, double* values) {
-        earlier.read_rows(path + name, frame.index, 1, values);
-      };
-      body.positions.resize(bodies_[i].vertices);
-      read("/positions", body.positions.data()->data());
-      read("/frame/translation", body.translation.data());
-      read("/frame/rotation", body.rotation.data());
-      body.rotation.transposeInPlace();  // rows are read as columns
-      if (!bodies_[i].tractions) continue;
-      body.tractions.resize(bodies_[i].vertices);
-      read("/tractions", body.tractions.data()->data());
-    }
-    write(frame);
-  }
-}
-
 void Hdf5Trajectory::write(const Frame& frame) {
   check_frame(bodies_, frame);
   require(frame.index == frames_, "frames are written in their order");
@@ -158,6 +177,12 @@ void Hdf5Trajectory::write(const Frame& frame) {
   append("/time", &frame.time);
   file_.flush();
   ++frames_;
+  add_frame(records_[0], frame);
+}
+
+void Hdf5Trajectory::sync() {
+  file_.sync();
+  check_io(sync_folder(folder_of(file_.path())), file_.path());
 }
 
 void Hdf5Trajectory::close() {

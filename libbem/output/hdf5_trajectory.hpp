@@ -2,9 +2,9 @@
 
 #include "base/disk_reserve.hpp"
 #include "base/hdf5.hpp"
+#include "base/temporary_file.hpp"
 #include "output/frame.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +12,6 @@ namespace bem {
 
 /// Name of the trajectory in the output directory.
 inline constexpr const char* kTrajectoryFile = "trajectory.h5";
-
-/// Name of the one that a run goes on from, while its frames are copied.
-inline constexpr const char* kEarlierTrajectory = "trajectory.h5.earlier";
 
 /// Writes OUT_DIR/trajectory.h5:
 ///
@@ -29,28 +26,32 @@ inline constexpr const char* kEarlierTrajectory = "trajectory.h5.earlier";
 ///
 /// Other processes can read the file while it is written, if they open it for that (h5py:
 /// swmr=True); a frame is complete when /time has it. The same way opens a file whose writer was
-/// killed; after close() or the writer's destruction it opens like any other. Room for a frame is
-/// reserved before it is written, so that the frames before it survive a full disk.
+/// killed; after close() or the writer's destruction it opens like any other, also after a failed
+/// write, which takes the file back to the frames before it. Room for a frame is reserved before it
+/// is written. The file appears under its name when it can be read.
 class Hdf5Trajectory : public FrameWriter {
  public:
-  /// Creates the file in an existing directory, overwriting an old one. Throws
-  /// ErrorCode::resources.
-  /// Frames that are kept are copied, O(their size).
+  /// Creates the file in an existing directory, replacing an old one, whose frames that are kept
+  /// are copied, O(their size). Throws ErrorCode::resources.
   Hdf5Trajectory(const std::string& directory, std::vector<TrajectoryBody> bodies,
                  std::size_t kept = 0);
 
   /// O(vertices); besides its own bytes a frame of a small body rewrites at most 4 KiB.
   void write(const Frame& frame) override;
+  void sync() override;
   void close() override;
+
+  /// Of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as many.
+  static FileRecords read_records(const std::string& directory,
+                                  const std::vector<TrajectoryBody>& bodies, std::size_t frames);
 
  private:
   void create_series(const std::string& path, const Hdf5Dims& extents, const char* units);
   void append(const std::string& path, const double* values);
   void create_contents();
-  void copy_frames(const Hdf5File& earlier, std::size_t count);
 
   std::vector<TrajectoryBody> bodies_;
-  std::optional<Hdf5File> earlier_;  ///< while its frames are copied
+  TemporaryFile temporary_;  ///< until it has its name
   Hdf5File file_;
   DiskReserve reserve_;
   std::size_t frame_bytes_ = 0;  ///< that a frame adds to the file at most

@@ -1,5 +1,6 @@
 #include "measure.hpp"
 
+#include "base/pending_file.hpp"
 #include "contact/self_penetration.hpp"
 #include "contact/surface_overlap.hpp"
 #include "mesh/extent.hpp"
@@ -9,9 +10,10 @@
 #include "scene/motion.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
+#include <optional>
 #include <set>
+#include <sstream>
 
 namespace bem {
 namespace {
@@ -67,8 +69,7 @@ class Measurement {
       if (joint.b) joined_.insert(std::minmax(joint.a.body, joint.b->body));
     records_.resize(scene.bodies.size());
     if (!options.series.empty()) {
-      series_.open(options.series);
-      if (!series_) throw Error(ErrorCode::resources, options.series + ": cannot be written");
+      series_file_.emplace(options.series);
       series_ << "time,body,x,y,z,vx,vy,vz,fastest,kinetic_energy,potential_energy,penetration\n";
       series_.precision(10);
     }
@@ -76,6 +77,7 @@ class Measurement {
 
   Json run() {
     for (std::size_t k = 0; k < trajectory_.times().size(); ++k) frame(k);
+    if (series_file_) series_file_->commit(series_.str());
     Json bodies = Json::array();
     for (std::size_t b = 0; b < records_.size(); ++b) {
       const BodyRecord& r = records_[b];
@@ -196,7 +198,7 @@ class Measurement {
     }
     r.velocity = (r.end - mass_properties(previous_[b], 1).centre) / dt;
     r.energy = kinetic_energy(body, velocities);
-    if (!series_.is_open()) return;
+    if (!series_file_) return;
     series_ << trajectory_.times()[k] << "," << scene_.bodies[b].name;
     for (double x : {r.end[0], r.end[1], r.end[2], r.velocity[0], r.velocity[1], r.velocity[2],
                      r.last_speed, r.energy, -scene_.gravity.dot(r.end), frame_depth_[b]})
@@ -214,7 +216,8 @@ class Measurement {
   std::vector<double> frame_depth_;     ///< by body
   std::map<std::string, Worst> worst_;  ///< by pair
   Worst deepest_;
-  std::ofstream series_;
+  std::optional<PendingFile> series_file_;
+  std::ostringstream series_;
 };
 
 }  // namespace

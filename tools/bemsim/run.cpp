@@ -5,12 +5,9 @@
 #include "base/pending_file.hpp"
 #include "checkpoint.hpp"
 #include "mesh/describe.hpp"
-#include "output/hdf5_trajectory.hpp"
-#include "output/obj_sequence.hpp"
 #include "output/output_directory.hpp"
-#include "output/point_cache.hpp"
-#include "output/vtp_sequence.hpp"
 #include "stats.hpp"
+#include "writers.hpp"
 
 #include <algorithm>
 
@@ -18,43 +15,6 @@
 
 namespace bem {
 namespace {
-
-using Writers = std::vector<std::unique_ptr<FrameWriter>>;
-
-bool writes_tractions(const Scene& scene) {
-  const auto& fields = scene.output.fields;
-  return std::find(fields.begin(), fields.end(), OutputField::tractions) != fields.end();
-}
-
-std::unique_ptr<FrameWriter> make_writer(OutputFormat format, const std::string& directory,
-                                         const std::vector<TrajectoryBody>& bodies,
-                                         std::size_t kept) {
-  switch (format) {
-    case OutputFormat::hdf5:
-      return std::make_unique<Hdf5Trajectory>(directory, bodies, kept);
-    case OutputFormat::obj:
-      return std::make_unique<ObjSequence>(directory, bodies, kept);
-    case OutputFormat::vtp:
-      return std::make_unique<VtpSequence>(directory, bodies, kept);
-    case OutputFormat::pc2:
-      return std::make_unique<PointCache>(directory, bodies, kept);
-  }
-  throw Error(ErrorCode::internal, "no writer for the format " + format_name(format));
-}
-
-/// `kept`: frames of an earlier run that stay.
-Writers make_writers(const Plan& plan, const std::string& directory, std::size_t kept) {
-  std::vector<TrajectoryBody> bodies;
-  for (const PlannedBody& body : plan.bodies) {
-    const TriangleMesh& mesh = body.archive->geometry().input;
-    bodies.push_back({body.spec->name, mesh.vertices.size(), mesh.triangles,
-                      writes_tractions(plan.scene), mesh.vertices});
-  }
-  Writers writers;
-  for (OutputFormat format : plan.scene.output.formats)
-    writers.push_back(make_writer(format, directory, bodies, kept));
-  return writers;
-}
 
 /// The frame is that of the mesh coordinates: without displacements a vertex with mesh coordinates
 /// x is at translation + rotation * x.
@@ -106,7 +66,7 @@ class Run {
     prepare_output_directory(options.output, options.resume  ? ExistingOutput::keep
                                              : options.force ? ExistingOutput::replace
                                                              : ExistingOutput::refuse);
-    writers_ = make_writers(plan, options.output, static_cast<std::size_t>(statistics_.frames()));
+    writers_ = std::make_unique<Writers>(plan, options.output, kept_frames(), kept_);
   }
 
   /// Steps to the end, a failure or an interruption, and completes the files in each case.
@@ -160,19 +120,23 @@ class Run {
   }
 
   void restore(StateReader& earlier) {
-    earlier(statistics_, timer_, *simulation_);
+    earlier(kept_, statistics_, timer_, *simulation_);
     earlier.finish();
+    check_output_records(plan_, options_.output, kept_frames(), kept_);
     saved_ = simulation_->steps();
     log_.info("going on from t = " + to_text(simulation_->time()) + " s: " + progress());
     timer_.begin(kLoadingPhase);
   }
 
-  /// After the frames of the state, so that they are there when it is.
+  std::size_t kept_frames() const { return static_cast<std::size_t>(statistics_.frames()); }
+
+  /// After the frames of the state, which are on the disk when it is.
   void save() {
     const long steps = simulation_->steps();
     if (steps == saved_) return;
     timer_.begin(kCheckpointPhase);
-    save_checkpoint(options_.output, identity_, steps, statistics_, timer_, *simulation_);
+    OutputRecords records = writers_->sync();
+    save_checkpoint(options_.output, identity_, steps, records, statistics_, timer_, *simulation_);
     saved_ = steps;
   }
 
@@ -197,14 +161,14 @@ class Run {
       frame.bodies.push_back(frame_of(*plan_.bodies[i].spec, body, writes_tractions(plan_.scene)));
       check_finite(body, frame.bodies.back(), frame.time);
     }
-    for (const auto& writer : writers_) writer->write(frame);
+    writers_->write(frame);
     statistics_.record_frame();
   }
 
   void finish(const std::string& outcome) {
     bar_.finish();
     timer_.begin(kOutputPhase);
-    for (const auto& writer : writers_) writer->close();
+    writers_->close();
     timer_.end();
     for (const std::string& text : statistics_.warnings(plan_, *simulation_)) log_.warning(text);
     if (stats_file_)
@@ -239,7 +203,8 @@ class Run {
   ProgressBar bar_;
   std::unique_ptr<PendingFile> stats_file_;
   std::unique_ptr<Simulation> simulation_;
-  Writers writers_;
+  OutputRecords kept_;  ///< of the frames of an earlier run
+  std::unique_ptr<Writers> writers_;
 };
 
 /// Notices early what prepare_output_directory would refuse, but removes nothing yet.
@@ -252,6 +217,7 @@ void check_output(const Options& options) {
 }  // namespace
 
 int run_simulation(const Plan& plan, ArchiveSource& source, const Options& options, Log& log) {
+  const FolderLock lock = create_output_directory(options.output);
   check_output(options);
   Run run(plan, source, options, log);
   run.go();

@@ -202,19 +202,6 @@ TEST_CASE("a trajectory that goes on ends in the same bytes") {
   CHECK_THAT(test::refusal_to_go_on<Hdf5Trajectory>(), Contains("to go on from"));
 }
 
-TEST_CASE("a trajectory goes on although the first attempt to do so was killed") {
-  const test::TemporaryFolder folder("trajectory_again");
-  {
-    Hdf5Trajectory writer(folder.path(), sample_bodies());
-    for (std::size_t f = 0; f < 5; ++f) writer.write(sample_frame(f));
-  }
-  std::filesystem::rename(folder / "trajectory.h5", folder / kEarlierTrajectory);
-  Hdf5Trajectory(folder.path(), sample_bodies()).write(sample_frame(0));
-  Hdf5Trajectory(folder.path(), sample_bodies(), 4).close();
-  check_frames(Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive), 4);
-  CHECK_FALSE(std::filesystem::exists(folder / kEarlierTrajectory));
-}
-
 TEST_CASE("a trajectory whose writer was killed can go on") {
   const test::TemporaryFolder folder("trajectory_killed_on");
   const pid_t child = fork();
@@ -229,4 +216,8 @@ TEST_CASE("a trajectory whose writer was killed can go on") {
   for (std::size_t f = 4; f < kFrames; ++f) writer.write(sample_frame(f));
   writer.close();
   check_frames(Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive), kFrames);
+}
+
+TEST_CASE("what a checkpoint counts on is compared with the files of a Hdf5Trajectory") {
+  test::check_damage<Hdf5Trajectory>();
 }
