@@ -4,12 +4,13 @@
 # there is only a warning.
 set -euo pipefail
 
-usage="usage: scripts/setup.sh [--test] [--bench] [--lint] [--npm] [--calculix]
+usage="usage: scripts/setup.sh [--test] [--bench] [--lint] [--npm] [--calculix] [--fuzz]
   --test   also what the tests need to read output as other programs do
   --bench  also what the benchmarks need, and Siconos to compare with
   --lint   also clang-format and clang-tidy
   --npm    also npm, which fetches example meshes
-  --calculix  also CalculiX, which the study compares with"
+  --calculix  also CalculiX, which the study compares with
+  --fuzz   also clang with its sanitizers, for the fuzzers"
 
 fail() {
   echo "error: $2" >&2
@@ -30,6 +31,7 @@ for argument in "$@"; do
     --lint) packages+=(clang-format clang-tidy) ;;
     --npm) command -v npm >/dev/null || packages+=(nodejs npm) ;;
     --calculix) packages+=(calculix-ccx) ;;
+    --fuzz) packages+=(clang libclang-rt-dev) ;;
     -h | --help) echo "$usage"; exit 0 ;;
     *) fail 2 "unknown option '$argument'"$'\n'"$usage" ;;
   esac

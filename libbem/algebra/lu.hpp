@@ -20,7 +20,13 @@ class Lu {
   explicit Lu(DenseMatrix<T>&& a);
   Lu() = default;  ///< of nothing, to be restored
 
-  void visit_state(StateArchive& state) { state(lu_, pivots_, norm1_); }
+  void visit_state(StateArchive& state) {
+    state.resizable(lu_, pivots_);
+    state(norm1_);
+    state.check(lu_.rows() == lu_.cols() && size() == static_cast<Eigen::Index>(pivots_.size()));
+    for (int k = 0; k < static_cast<int>(pivots_.size()); ++k)
+      state.check(pivots_[k] >= k && pivots_[k] < size());
+  }
 
   /// b := a^{-1} b in place, n^2 multiply-adds per column.
   void solve(DenseMatrix<T>& b) const;

@@ -76,9 +76,6 @@ inline std::vector<std::string> initial_paths(const std::string& matrix, std::si
   return paths;
 }
 
-/// Of Loads::some: the nodes, [k].
-inline constexpr char kLoadedNodesPath[] = "/body/loaded_nodes";
-
 /// Columns of body forces: by the accelerations of the frame, and by its rotation.
 inline constexpr char kBodyForce[] = "body_force";
 inline constexpr char kCentrifugal[] = "centrifugal";

@@ -2,11 +2,11 @@
 #include "archive/archive_reader.hpp"
 #include "archive/haar_storage.hpp"
 #include "archive/low_rank_storage.hpp"
+#include "base/finite.hpp"
 #include "base/parallel.hpp"
 #include "compress/dense_family.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 // The part of Archive that loads the large matrices.
@@ -52,17 +52,10 @@ class Archive::Loading {
       load_compressed(place, nullptr);
       return;
     }
-    std::vector<double> tile(std::min(n_, tile_rows<double>()) * n_);
-    for (const std::string& path : place.paths) {
-      check(path, precision_ == Precision::float32 ? Hdf5Type::float32 : Hdf5Type::float64);
-      for_each_tile<double>([&](std::size_t first, std::size_t rows) {
-        file_.read_rows(path, first, rows, tile.data());
-        if (!std::all_of(tile.begin(), tile.begin() + static_cast<std::ptrdiff_t>(rows * n_),
-                         [](double x) { return std::isfinite(x); }))
-          throw Error(ErrorCode::archive,
-                      file_.path() + ": " + path + " has a number that is not finite");
-      });
-    }
+    if (precision_ == Precision::float32)
+      read_tiles<float>(place);
+    else
+      read_tiles<double>(place);
   }
 
  private:
@@ -91,10 +84,9 @@ class Archive::Loading {
   std::unique_ptr<MatrixFamily> load_dense(const FamilyPlace& place) {
     auto family = std::make_unique<DenseFamily<T>>(n_, static_cast<int>(place.paths.size()));
     for (std::size_t k = 0; k < place.paths.size(); ++k) {
-      check(place.paths[k], hdf5_type<T>());
       DenseStore<T>& store = family->matrix(static_cast<int>(k));
       for_each_tile<T>([&](std::size_t first, std::size_t rows) {
-        file_.read_rows(place.paths[k], first, rows, store.row(first));
+        read_rows(place.paths[k], first, rows, store.row(first));
       });
     }
     return family;
@@ -107,10 +99,9 @@ class Archive::Loading {
         std::make_unique<ColumnFamily<T>>(n_, columns, static_cast<int>(place.paths.size()));
     std::vector<T> tile(std::min(n_, tile_rows<T>()) * n_);
     for (std::size_t k = 0; k < place.paths.size(); ++k) {
-      check(place.paths[k], hdf5_type<T>());
       ColumnStore<T>& store = family->matrix(static_cast<int>(k));
       for_each_tile<T>([&](std::size_t first, std::size_t rows) {
-        file_.read_rows(place.paths[k], first, rows, tile.data());
+        read_rows(place.paths[k], first, rows, tile.data());
         parallel_for(columns.size(), [&](std::size_t c) {
           T* column = store.column(c) + first;
           for (std::size_t i = 0; i < rows; ++i)
@@ -121,10 +112,20 @@ class Archive::Loading {
     return family;
   }
 
-  void check(const std::string& path, Hdf5Type type) const {
-    if (file_.dims(path) != Hdf5Dims{n_, n_} || file_.type(path) != type)
-      throw Error(ErrorCode::archive,
-                  file_.path() + ": " + path + " has wrong extents or numbers of a wrong type");
+  /// For the checks alone.
+  template <class T>
+  void read_tiles(const FamilyPlace& place) {
+    std::vector<T> tile(std::min(n_, tile_rows<T>()) * n_);
+    for (const std::string& path : place.paths)
+      for_each_tile<T>(
+          [&](std::size_t first, std::size_t rows) { read_rows(path, first, rows, tile.data()); });
+  }
+
+  /// Rows of a matrix, which must be finite.
+  template <class T>
+  void read_rows(const std::string& path, std::size_t first, std::size_t rows, T* out) const {
+    file_.read_rows(path, first, rows, out);
+    if (!all_finite(out, rows * n_)) archive_.refuse(path + " has a number that is not finite");
   }
 
   template <class T>
@@ -206,26 +207,11 @@ std::size_t Archive::history_coefficients() const {
   return dims.empty() ? 0 : dims[0];
 }
 
-Eigen::MatrixXd Archive::load_balance(const std::string& path) const {
-  if (path == kTractionBalancePath && loads_ == Loads::none) return Eigen::MatrixXd(6, 0);
-  const std::vector<double> data = file_.read<double>(path, {6, unknowns()});
-  const auto n = static_cast<Eigen::Index>(unknowns());
-  return Eigen::Map<const Eigen::MatrixXd>(data.data(), n, 6).transpose();
-}
-
 void Archive::check_matrices(const Progress& progress) const {
   if (kind_ == ModelKind::rigid) return;
-  const auto finite = [](const auto& m) { return m.allFinite(); };
-  for (const char* name : {kBodyForce, kCentrifugal}) {
-    if (name == kCentrifugal && !has_centrifugal()) continue;
-    const BodyForce force = load_body_force(name);
-    if (!std::all_of(force.lags.begin(), force.lags.end(), finite) ||
-        !std::all_of(force.initial.begin(), force.initial.end(), finite))
-      refuse(lags_path(name) + " has a number that is not finite");
-  }
-  for (const char* path : {kBalancePath, kTractionBalancePath})
-    if (!load_balance(path).allFinite())
-      refuse(std::string(path) + " has a number that is not finite");
+  load_body_force(kBodyForce);
+  if (has_centrifugal()) load_body_force(kCentrifugal);
+  for (const char* path : {kBalancePath, kTractionBalancePath}) load_balance(path);
   Loading loading(*this, true, true, progress);
   for (const FamilyPlace& place : family_places()) loading.check_numbers(place);
 }

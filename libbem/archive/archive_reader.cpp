@@ -1,6 +1,9 @@
 #include "archive/archive_reader.hpp"
 
 #include "archive/archive_layout.hpp"
+#include "archive/file_check.hpp"
+#include "archive/scheme_tables.hpp"
+#include "base/narrow.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +13,18 @@
 namespace bem {
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 constexpr double kSchemeTolerance = 1e-10;
+
+/// The structure of the file is checked before the HDF5 library reads it in this process.
+Hdf5File open_checked(const std::string& path) {
+  check_hdf5_file(path, Hdf5Storage::whole, ErrorCode::archive);
+  return Hdf5File::open(path, ErrorCode::archive);
+}
 
 }  // namespace
 
 Archive::Archive(const std::string& path)
-    : user_block_(verify_digest(path)), file_(Hdf5File::open(path, ErrorCode::archive)) {
+    : user_block_(verify_digest(path)), file_(open_checked(path)) {
   require_text("format", "bem matrix archive");
   if (file_.int_attribute("/", "format_version") != user_block_.version)
     refuse("its format version is not that of its header");
@@ -25,10 +32,12 @@ Archive::Archive(const std::string& path)
   if (kind_ != ModelKind::rigid) read_storage();
   read_geometry();
   read_material();
+  check_body();
   read_provenance();
   if (kind_ == ModelKind::rigid) return;
   read_discretisation();
   read_report();
+  check_matrix_datasets();
 }
 
 void Archive::read_kind() {
@@ -81,21 +90,17 @@ void Archive::require_text(const std::string& name, const std::string& expected)
 }
 
 std::vector<Vec3> Archive::read_points(const std::string& path) const {
-  const Hdf5Dims dims = file_.dims(path);
-  const std::vector<double> data =
-      file_.read<double>(path, {dims.empty() ? 0 : dims[0], std::size_t(3)});
+  const std::vector<double> data = file_.read<double>(path);
+  check_finite(data.data(), data.size(), path);
   std::vector<Vec3> points;
   points.reserve(data.size() / 3);
-  for (std::size_t i = 0; i < data.size(); i += 3) {
+  for (std::size_t i = 0; i < data.size(); i += 3)
     points.emplace_back(data[i], data[i + 1], data[i + 2]);
-    if (!points.back().allFinite()) refuse(path + " has a coordinate that is not finite");
-  }
   return points;
 }
 
-std::vector<int> Archive::read_indices(const std::string& path, std::size_t count, int lowest,
-                                       std::size_t end) const {
-  const std::vector<std::int32_t> data = file_.read<std::int32_t>(path, {count});
+std::vector<int> Archive::read_indices(const std::string& path, int lowest, std::size_t end) const {
+  const std::vector<std::int32_t> data = file_.read<std::int32_t>(path);
   for (std::int32_t index : data)
     if (index < lowest || index >= static_cast<std::int64_t>(end))
       refuse(path + " has an index out of range");
@@ -103,47 +108,42 @@ std::vector<int> Archive::read_indices(const std::string& path, std::size_t coun
 }
 
 std::vector<Triangle> Archive::read_triangles(const std::string& path, std::size_t vertices) const {
-  const Hdf5Dims dims = file_.dims(path);
-  const std::vector<std::int32_t> data =
-      file_.read<std::int32_t>(path, {dims.empty() ? 0 : dims[0], std::size_t(3)});
-  std::vector<Triangle> triangles;
-  triangles.reserve(data.size() / 3);
-  for (std::size_t i = 0; i < data.size(); i += 3) {
-    triangles.push_back({data[i], data[i + 1], data[i + 2]});
-    for (int v : triangles.back())
-      if (v < 0 || v >= static_cast<std::int64_t>(vertices))
-        refuse(path + " has an index out of range");
-  }
+  const std::vector<int> corners = read_indices(path, 0, vertices);
+  std::vector<Triangle> triangles(corners.size() / 3);
+  for (std::size_t i = 0; i < corners.size(); ++i) triangles[i / 3][i % 3] = corners[i];
   return triangles;
 }
 
 void Archive::read_geometry() {
+  contents_.check_datasets(file_, kGeometryDatasets);
+  check_numbers(file_, kGeometryNumbers);
   BodyGeometry& g = geometry_;
   g.input.vertices = read_points("/mesh/vertices");
   g.input.triangles = read_triangles("/mesh/faces", g.input.vertices.size());
   g.nodes.vertices = read_points("/body/nodes");
   g.nodes.triangles = read_triangles("/body/triangles", g.nodes.vertices.size());
-  const std::size_t triangles = g.input.triangles.size();
-  if (g.nodes.vertices.size() < 4 || triangles < 4 || g.nodes.triangles.size() != triangles)
-    refuse("its mesh is not a closed surface");
-  g.node_of_vertex =
-      read_indices("/body/node_of_vertex", g.input.vertices.size(), -1, g.nodes.vertices.size());
-  g.triangle_order = read_indices("/body/triangle_order", triangles, 0, triangles);
-  g.mass.centre = Eigen::Map<const Vec3>(file_.read<double>("/body/centre_of_mass", {3}).data());
-  g.mass.inertia =
-      Eigen::Map<const Mat3>(file_.read<double>("/body/inertia", {3, 3}).data()).transpose();
+  g.node_of_vertex = read_indices("/body/node_of_vertex", -1, g.nodes.vertices.size());
+  g.triangle_order = read_indices("/body/triangle_order", 0, g.input.triangles.size());
+  g.mass.centre = read_points("/body/centre_of_mass")[0];
+  const std::vector<Vec3> inertia = read_points("/body/inertia");
+  for (int i = 0; i < 3; ++i) g.mass.inertia.row(i) = inertia[i].transpose();
   g.mass.volume = file_.double_attribute("/body", "volume");
   g.mass.mass = file_.double_attribute("/body", "mass");
   g.extent = file_.double_attribute("/body", "extent");
   if (file_.has_attribute("/body", "corner_angle_deg"))
     g.corner_angle_deg = file_.double_attribute("/body", "corner_angle_deg");
+  narrow<std::int32_t>(3 * g.nodes.vertices.size(), ErrorCode::archive,
+                       path() + ": the number of nodes");
+  read_loaded_nodes();
+}
+
+void Archive::read_loaded_nodes() {
   if (loads_ != Loads::some) return;
-  const Hdf5Dims dims = file_.dims(kLoadedNodesPath);
-  loaded_nodes_ =
-      read_indices(kLoadedNodesPath, dims.empty() ? 0 : dims[0], 0, g.nodes.vertices.size());
+  contents_.check_datasets(file_, kLoadedNodes);
+  loaded_nodes_ = read_indices(kLoadedNodes[0].path, 0, geometry_.nodes.vertices.size());
   if (std::adjacent_find(loaded_nodes_.begin(), loaded_nodes_.end(), std::greater_equal<>()) !=
       loaded_nodes_.end())
-    refuse(std::string(kLoadedNodesPath) + " does not ascend");
+    refuse(std::string(kLoadedNodes[0].path) + " does not ascend");
 }
 
 void Archive::read_material() {
@@ -154,25 +154,33 @@ void Archive::read_material() {
   m.poisson_ratio = file_.double_attribute("/material", "poisson_ratio");
   if (file_.has_attribute("/material", "time_step"))
     m.time_step = file_.double_attribute("/material", "time_step");
+  if (!std::isnormal(m.shear_speed()))
+    refuse("has a material whose speed of shear waves is out of range");
+}
+
+/// As meshes of bodies are checked.
+void Archive::check_body() const {
+  try {
+    check_geometry(geometry_, discretisation_.material.density, path());
+  } catch (const Error& e) {
+    throw Error(ErrorCode::archive, e.what());
+  }
 }
 
 void Archive::read_discretisation() {
+  check_numbers(file_, kSchemeNumbers);
   Discretisation& d = discretisation_;
   const bool dynamic = kind_ == ModelKind::dynamic;
+  if (dynamic) check_numbers(file_, kDynamicNumbers);
   d.dt = dynamic ? file_.double_attribute("/scheme", "dt")
                  : quasistatic_time_step(geometry_, d.material);
-  const std::int64_t history = file_.int_attribute("/scheme", "history_length");
-  if (dynamic ? history < 1 || history > 1000000 : history != 0)
-    refuse("has an impossible length of the history");
-  d.history_length = static_cast<int>(history);
+  d.history_length = narrow<int>(file_.int_attribute("/scheme", "history_length"),
+                                 ErrorCode::archive, path() + ": the length of the history");
+  if (dynamic != (d.history_length > 0)) refuse("has an impossible length of the history");
   d.quadrature_tolerance = file_.double_attribute("/scheme", "quadrature_tolerance");
   window_ = file_.double_attribute("/scheme", "window");
-  if (!(std::isfinite(d.dt) && d.dt > 0 && window_ > 0 && window_ <= 1))
-    refuse("has an impossible time step or window");
-  if (file_.has_attribute("/scheme", "damping_time")) {
+  if (file_.has_attribute("/scheme", "damping_time"))
     d.damping.time = file_.double_attribute("/scheme", "damping_time");
-    if (!(d.damping.time > 0 && std::isfinite(d.damping.time))) refuse("has an impossible damping");
-  }
   const std::string name = file_.string_attribute("/scheme", "name");
   try {
     d.scheme = Scheme::parse(name);
@@ -184,21 +192,23 @@ void Archive::read_discretisation() {
 }
 
 /// The matrices belong to components of the scheme: are they the ones that this program uses?
-void Archive::check_scheme() const {
-  const auto& lag = discretisation_.scheme.lag_components();
-  const auto& initial = discretisation_.scheme.initial_components();
-  const auto stages = static_cast<std::size_t>(discretisation_.scheme.stages());
-  const auto left = file_.read<double>("/scheme/lag_left", {lag.size(), stages});
-  const auto right = file_.read<double>("/scheme/lag_right", {lag.size(), stages});
-  const auto eigenvalues = file_.read<double>("/scheme/initial_eigenvalues", {initial.size(), 2});
+void Archive::check_scheme() {
+  const Scheme& scheme = discretisation_.scheme;
+  const auto stages = static_cast<std::size_t>(scheme.stages());
+  contents_.expect(Count::stages, stages);
+  contents_.expect(Count::stage_parts, 2 * stages);
+  contents_.expect(Count::lag_components, scheme.lag_components().size());
+  contents_.expect(Count::initial_components, scheme.initial_components().size());
+  contents_.check_datasets(file_, kSchemeDatasets);
   double difference = 0;
-  for (std::size_t m = 0; m < lag.size(); ++m)
-    for (std::size_t s = 0; s < stages; ++s)
-      difference += std::abs(left[m * stages + s] - lag[m].left[static_cast<Eigen::Index>(s)]) +
-                    std::abs(right[m * stages + s] - lag[m].right[static_cast<Eigen::Index>(s)]);
-  for (std::size_t i = 0; i < initial.size(); ++i)
-    difference +=
-        std::abs(Complex(eigenvalues[2 * i], eigenvalues[2 * i + 1]) - initial[i].eigenvalue);
+  for (const SchemeTable& table : scheme_tables(scheme)) {
+    const std::vector<double> found = file_.read<double>(table.path);
+    check_finite(found.data(), found.size(), table.path);
+    if (!table.is_unique) continue;
+    const Eigen::Map<const SchemeTable::Values> theirs(found.data(), table.values.rows(),
+                                                       table.values.cols());
+    difference += (theirs - table.values).cwiseAbs().sum();
+  }
   if (!(difference < kSchemeTolerance))
     refuse("its matrices are decomposed in another way than this program does");
 }
@@ -263,31 +273,6 @@ std::vector<std::string> Archive::matrix_paths() const {
 
 bool Archive::has_centrifugal() const {
   return file_.exists(initial_path(kCentrifugal, 0));
-}
-
-BodyForce Archive::load_body_force(const char* name) const {
-  BodyForce force;
-  const std::size_t n = unknowns(), components = lag_components();
-  const auto lags = static_cast<std::size_t>(discretisation_.history_length);
-  const std::string path = lags_path(name) + "/lags";
-  if (lags > 0 && file_.dims(path) != Hdf5Dims{lags, components, n, 6})
-    refuse(path + " has wrong extents");
-  RowMajor columns(static_cast<Eigen::Index>(n), 6);
-  for (std::size_t i = 0; i < lags * components; ++i) {
-    file_.read_block(path, {i / components, i % components, 0, 0}, {1, 1, n, 6}, columns.data());
-    force.lags.emplace_back(columns);
-  }
-  for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
-    const std::string group = initial_path(name, i);
-    const auto part = [&](const char* part_name) {
-      const std::vector<double> data = file_.read<double>(group + part_name, {n, 6});
-      return RowMajor(Eigen::Map<const RowMajor>(data.data(), static_cast<Eigen::Index>(n), 6));
-    };
-    Eigen::MatrixXcd value = part("/real").cast<Complex>();
-    if (is_paired(i)) value.imag() = part("/imaginary");
-    force.initial.push_back(std::move(value));
-  }
-  return force;
 }
 
 BodyModel Archive::load_motion_matrices(const Progress& progress) const {

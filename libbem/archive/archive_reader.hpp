@@ -1,5 +1,6 @@
 #pragma once
 
+#include "archive/archive_contents.hpp"
 #include "archive/provenance.hpp"
 #include "archive/user_block.hpp"
 #include "base/hdf5.hpp"
@@ -97,20 +98,25 @@ class Archive {
   void require_text(const std::string& name, const std::string& expected) const;
   std::vector<Vec3> read_points(const std::string& path) const;
   std::vector<Triangle> read_triangles(const std::string& path, std::size_t vertices) const;
-  std::vector<int> read_indices(const std::string& path, std::size_t count, int lowest,
-                                std::size_t end) const;
+  std::vector<int> read_indices(const std::string& path, int lowest, std::size_t end) const;
   void read_geometry();
+  void read_loaded_nodes();
   void read_material();
+  void check_body() const;
   void read_discretisation();
   void read_report();
   void read_provenance();
-  void check_scheme() const;
+  void check_scheme();
+  void check_matrix_datasets();
+  void check_body_force_datasets(const char* name);
+  void check_finite(const double* numbers, std::size_t count, const std::string& path) const;
   std::size_t lag_components() const { return discretisation_.scheme.lag_components().size(); }
   bool is_paired(std::size_t initial_component) const;
   BodyModel load(bool tractions, const Progress& progress) const;
 
   UserBlock user_block_;  // checked before the file is opened
   Hdf5File file_;
+  ArchiveContents contents_;
   ModelKind kind_ = ModelKind::dynamic;
   BodyGeometry geometry_;
   Discretisation discretisation_;

@@ -1,8 +1,10 @@
 #include "archive/archive_writer.hpp"
 
+#include "archive/archive_contents.hpp"
 #include "archive/archive_layout.hpp"
 #include "archive/haar_storage.hpp"
 #include "archive/low_rank_storage.hpp"
+#include "archive/scheme_tables.hpp"
 #include "archive/user_block.hpp"
 #include "base/hdf5.hpp"
 #include "base/pending_file.hpp"
@@ -113,43 +115,21 @@ void write_material(Hdf5File& file, const Material& m) {
   if (m.time_step) file.set_attribute("/material", "time_step", *m.time_step);
 }
 
-/// Stage vectors as rows, real and imaginary parts in columns of their own: [vectors, 2 * stages].
 void write_scheme(Hdf5File& file, const BodyModel& model) {
   const Discretisation& d = model.discretisation;
-  const Scheme& scheme = d.scheme;
-  const Eigen::Index stages = scheme.stages();
-  const auto& lag = scheme.lag_components();
-  const auto& initial = scheme.initial_components();
   file.create_group("/scheme");
-  file.set_attribute("/scheme", "name", scheme.name());
-  file.set_attribute("/scheme", "stages", scheme.stages());
+  file.set_attribute("/scheme", "name", d.scheme.name());
+  file.set_attribute("/scheme", "stages", d.scheme.stages());
   if (model.kind == ModelKind::dynamic) file.set_attribute("/scheme", "dt", d.dt);
   file.set_attribute("/scheme", "history_length", d.history_length);
   file.set_attribute("/scheme", "window", model.window);
   file.set_attribute("/scheme", "quadrature_tolerance", d.quadrature_tolerance);
   if (d.damping.time > 0) file.set_attribute("/scheme", "damping_time", d.damping.time);
-  file.write("/scheme/stage_times", scheme.stage_times().data(),
-             {static_cast<std::size_t>(stages)});
-  RowMajor left(lag.size(), stages), right(lag.size(), stages);
-  for (std::size_t m = 0; m < lag.size(); ++m) {
-    left.row(m) = lag[m].left.transpose();
-    right.row(m) = lag[m].right.transpose();
+  for (const SchemeTable& table : scheme_tables(d.scheme)) {
+    Hdf5Dims dims = {static_cast<std::size_t>(table.values.rows())};
+    if (!table.is_vector) dims.push_back(static_cast<std::size_t>(table.values.cols()));
+    file.write(table.path, table.values.data(), dims);
   }
-  write_small(file, "/scheme/lag_left", left);
-  write_small(file, "/scheme/lag_right", right);
-  RowMajor eigenvalues(initial.size(), 2), multiplicity(initial.size(), 1);
-  RowMajor initial_left(initial.size(), 2 * stages), initial_right(initial.size(), 2 * stages);
-  for (std::size_t i = 0; i < initial.size(); ++i) {
-    const InitialComponent& c = initial[i];
-    eigenvalues.row(i) << c.eigenvalue.real(), c.eigenvalue.imag();
-    multiplicity(i, 0) = c.multiplicity();
-    initial_left.row(i) << c.left.transpose().real(), c.left.transpose().imag();
-    initial_right.row(i) << c.right.transpose().real(), c.right.transpose().imag();
-  }
-  write_small(file, "/scheme/initial_eigenvalues", eigenvalues);
-  write_small(file, "/scheme/initial_multiplicity", multiplicity);
-  write_small(file, "/scheme/initial_left", initial_left);
-  write_small(file, "/scheme/initial_right", initial_right);
 }
 
 void write_report(Hdf5File& file, const ModelReport& r) {
@@ -345,7 +325,7 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
                          model.precision == Precision::float32 ? "float32" : "float64");
     file.set_attribute("/", "inverse", inverse_name(model.is_iterative()));
     file.set_attribute("/", "loads", loads_name(model.loads));
-    if (model.loads == Loads::some) write_indices(file, kLoadedNodesPath, model.loaded_nodes);
+    if (model.loads == Loads::some) write_indices(file, kLoadedNodes[0].path, model.loaded_nodes);
     write_scheme(file, model);
     write_report(file, model.report);
     write_matrices(file, model, progress);

@@ -7,6 +7,7 @@ namespace bem {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t(32) << 20;  // bytes read or written at a time
+constexpr float kLargestHalf = 131072;                 // that the bits of a half may mean here
 
 /// Calls f(first, count) for pieces of `total` bytes.
 template <class F>
@@ -51,17 +52,16 @@ std::unique_ptr<HaarFamily> read_haar(const Hdf5File& file, const std::string& g
                                           " does not fit the other data of the archive");
   };
   const double scale = file.double_attribute(group, "scale");
-  check(std::isfinite(scale) && scale > 0 && std::isnormal(static_cast<float>(scale)),
+  check(scale > 0 && std::isnormal(static_cast<float>(scale)) &&
+            std::isfinite(static_cast<float>(scale) * kLargestHalf),
         ", attribute scale,");
-  const int value_bytes = file.int_attribute(group, "value_bytes");
+  const std::int64_t value_bytes = file.int_attribute(group, "value_bytes");
   check(value_bytes == 2 || value_bytes == 4, ", attribute value_bytes,");
   const std::size_t rows = size * static_cast<std::size_t>(count);
   check(file.dims(group + "/rows") == Hdf5Dims{rows, 2}, "/rows");
   const auto table = file.read<std::int32_t>(group + "/rows", {rows, 2});
   const auto read = [&](const std::string& name) {
-    const Hdf5Dims dims = file.dims(group + name);
-    check(dims.size() == 1 && file.type(group + name) == Hdf5Type::uint8, name);
-    std::vector<std::uint8_t> bytes(dims[0]);
+    std::vector<std::uint8_t> bytes(file.dims(group + name)[0]);
     for_each_piece(bytes.size(), [&](std::size_t first, std::size_t n) {
       file.read_rows(group + name, first, n, bytes.data() + first);
       report(n);

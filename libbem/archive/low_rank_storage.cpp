@@ -1,7 +1,11 @@
 #include "archive/low_rank_storage.hpp"
 
+#include "base/finite.hpp"
+#include "base/narrow.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace bem {
 namespace {
@@ -14,15 +18,6 @@ using Numbers = std::vector<std::int32_t>;
 void append(Numbers& to, const Layers& layers) {
   for (const auto* extents : {&layers.rows, &layers.columns})
     to.insert(to.end(), extents->begin(), extents->end());
-}
-
-Layers layers_at(const std::int32_t* from) {
-  Layers layers;
-  for (int i = 0; i < 3; ++i) {
-    layers.rows[i] = static_cast<std::uint16_t>(from[i]);
-    layers.columns[i] = static_cast<std::uint16_t>(from[3 + i]);
-  }
-  return layers;
 }
 
 /// Writes one-dimensional data piece by piece, slab by slab.
@@ -50,7 +45,7 @@ class Reader {
 
   std::unique_ptr<LowRankFamily> read(const std::vector<int>* columns) {
     quantum_ = file_.double_attribute(group_, "quantum");
-    check(std::isfinite(quantum_) && quantum_ > 0, "quantum");
+    check(quantum_ > 0 && std::isnormal(static_cast<float>(quantum_)), "quantum");
     read_tables();
     std::vector<LowRankSlab> slabs;
     std::size_t block = 0;
@@ -81,41 +76,37 @@ class Reader {
 
   void check(bool right, const char* what) const {
     if (!right)
-      throw Error(ErrorCode::archive, file_.path() + ": " + group_ + "/" + what +
-                                          " does not fit the other data of the archive");
+      throw Error(ErrorCode::archive, place(what) + " does not fit the other data of the archive");
   }
+  std::string place(const char* what) const { return file_.path() + ": " + path(what); }
   std::string path(const char* name) const { return group_ + "/" + name; }
   std::size_t block_count() const { return block_table_.size() / kBlockNumbers; }
 
   void read_tables() {
-    slab_table_ = table("slabs", 3);
-    block_table_ = table("blocks", kBlockNumbers);
-    coupling_table_ = table("couplings", kLayerNumbers);
+    slab_table_ = table("slabs");
+    block_table_ = table("blocks");
+    coupling_table_ = table("couplings");
     check(coupling_table_.size() == block_count() * count_ * kLayerNumbers, "couplings");
-    for (Cursor* c : {&analysis_, &synthesis_, &inputs_, &outputs_}) {
-      const Hdf5Dims dims = file_.dims(path(c->name));
-      check(dims.size() == 1, c->name);
-      c->length = dims[0];
-    }
+    for (Cursor* c : {&analysis_, &synthesis_, &inputs_, &outputs_})
+      c->length = file_.dims(path(c->name))[0];
   }
 
-  Numbers table(const char* name, std::size_t width) const {
-    const Hdf5Dims dims = file_.dims(path(name));
-    check(dims.size() == 2 && dims[1] == width, name);
-    return file_.read<std::int32_t>(path(name), dims);
-  }
+  Numbers table(const char* name) const { return file_.read<std::int32_t>(path(name)); }
 
   /// Extents of layers that fit a matrix of the given size.
   Layers checked_layers(const std::int32_t* from, int rows, int columns, const char* what) const {
-    for (int i = 0; i < 3; ++i)
+    Layers layers;
+    for (int i = 0; i < 3; ++i) {
       check(from[i] >= (i > 0 ? from[i - 1] : 0) && from[i] <= rows &&
                 from[3 + i] >= (i > 0 ? from[2 + i] : 0) && from[3 + i] <= columns,
             what);
-    return layers_at(from);
+      layers.rows[i] = narrow<std::uint16_t>(from[i], ErrorCode::archive, place(what));
+      layers.columns[i] = narrow<std::uint16_t>(from[3 + i], ErrorCode::archive, place(what));
+    }
+    return layers;
   }
 
   LowRankBlock block_at(std::size_t b) const {
-    constexpr int kMost = 65535;
     const std::int32_t* from = &block_table_[b * kBlockNumbers];
     LowRankBlock block;
     block.row_begin = from[0];
@@ -123,13 +114,14 @@ class Reader {
     block.column_begin = from[2];
     block.column_end = from[3];
     block.plain = from[4] != 0;
-    check(block.row_begin >= 0 && block.row_begin < block.row_end &&
+    check((from[4] == 0 || from[4] == 1) && block.row_begin >= 0 &&
+              block.row_begin < block.row_end &&
               block.row_end <= static_cast<std::int32_t>(size_) && block.column_begin >= 0 &&
               block.column_begin < block.column_end &&
               block.column_end <= static_cast<std::int32_t>(size_),
           "blocks");
-    block.input_basis = checked_layers(from + 5, kMost, block.columns(), "blocks");
-    block.output_basis = checked_layers(from + 11, block.rows(), kMost, "blocks");
+    block.input_basis = checked_layers(from + 5, block.columns(), block.columns(), "blocks");
+    block.output_basis = checked_layers(from + 11, block.rows(), block.rows(), "blocks");
     return block;
   }
 
@@ -171,9 +163,9 @@ class Reader {
     slab.row_begin = begin;
     slab.row_end = end;
     Pending analysis, synthesis, inputs, outputs;
+    check_tiling(begin, end, first, last);
     for (std::size_t b = first; b < last; ++b) {
       const LowRankBlock block = block_at(b);
-      check(block.row_begin >= begin && block.row_end <= end, "blocks");
       bool keep = true;
       if (columns) {
         const auto c = std::lower_bound(columns->begin(), columns->end(), block.column_begin);
@@ -198,12 +190,50 @@ class Reader {
     take(synthesis_, synthesis.count, true, slab.synthesis);
     take(inputs_, inputs.count, true, slab.input_scales);
     take(outputs_, outputs.count, true, slab.output_scales);
-    const auto finite = [](const std::vector<float>& scales) {
-      return std::all_of(scales.begin(), scales.end(), [](float x) { return std::isfinite(x); });
-    };
-    check(finite(slab.input_scales), "input_scales");
-    check(finite(slab.output_scales), "output_scales");
+    check_numbers(slab);
     return slab;
+  }
+
+  /// The blocks of a slab cover every entry of its rows once.
+  void check_tiling(int begin, int end, std::size_t first, std::size_t last) const {
+    std::vector<std::size_t> order(last - first);
+    std::iota(order.begin(), order.end(), first);
+    const auto number = [this](std::size_t b, int k) {
+      return block_table_[b * kBlockNumbers + k];
+    };
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return number(a, 2) < number(b, 2); });
+    std::vector<std::int32_t> covered(static_cast<std::size_t>(end - begin), 0);
+    for (std::size_t b : order) {
+      check(number(b, 0) >= begin && number(b, 1) <= end, "blocks");
+      for (std::int32_t row = number(b, 0); row < number(b, 1); ++row) {
+        check(covered[row - begin] == number(b, 2) && number(b, 3) > number(b, 2), "blocks");
+        covered[row - begin] = number(b, 3);
+      }
+    }
+    for (std::int32_t columns : covered)
+      check(columns == static_cast<std::int32_t>(size_), "blocks");
+  }
+
+  /// Scales and single precision entries, which come first in a layered matrix, are finite.
+  void check_numbers(const LowRankSlab& slab) const {
+    check(all_finite(slab.input_scales.data(), slab.input_scales.size()), "input_scales");
+    check(all_finite(slab.output_scales.data(), slab.output_scales.size()), "output_scales");
+    std::size_t analysis = 0, synthesis = 0;
+    const auto check_layers = [this](const Layers& layers, const std::vector<std::uint8_t>& data,
+                                     std::size_t& at, const char* what) {
+      check(all_finite(reinterpret_cast<const float*>(data.data() + at),
+                       std::size_t(layers.rows[0]) * layers.columns[0]),
+            what);
+      at += layers.bytes();
+    };
+    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
+      for (int k = 0; k < count_; ++k)
+        check_layers(slab.couplings[b * count_ + k], slab.synthesis, synthesis, "synthesis");
+      if (slab.blocks[b].plain) continue;
+      check_layers(slab.blocks[b].output_basis, slab.synthesis, synthesis, "synthesis");
+      check_layers(slab.blocks[b].input_basis, slab.analysis, analysis, "analysis");
+    }
   }
 
   const Hdf5File& file_;

@@ -39,6 +39,7 @@ class Hdf5File {
   ~Hdf5File();  ///< closes without a check: call close() to learn of errors
 
   const std::string& path() const { return path_; }
+  ErrorCode error() const { return error_; }  ///< of everything that fails with the file
   void flush();  ///< hands everything written so far to the operating system
   void sync();   ///< flushes, and waits until it is on the disk
   void close();  ///< flushes and closes; nothing but destruction may follow
@@ -51,6 +52,10 @@ class Hdf5File {
   std::vector<std::string> children(const std::string& group) const;  ///< names in byte order
   Hdf5Dims dims(const std::string& path) const;
   Hdf5Type type(const std::string& path) const;
+  /// Checks that there is a dataset of this type and these extents.
+  void require_dataset(const std::string& path, Hdf5Type type, const Hdf5Dims& dims) const;
+  /// Bytes that a dataset takes in the file.
+  std::uint64_t stored_bytes(const std::string& path) const;
 
   /// Creates a group, which may exist, and those above it. The functions that create datasets also
   /// create the groups above them.

@@ -138,6 +138,17 @@ Hdf5Type Hdf5File::type(const std::string& path) const {
   fail(path, "holds numbers of an unexpected type");
 }
 
+void Hdf5File::require_dataset(const std::string& path, Hdf5Type type, const Hdf5Dims& dims) const {
+  checked_count(path, dims, 1);
+  if (this->type(path) != type) fail(path, "holds numbers of an unexpected type");
+}
+
+std::uint64_t Hdf5File::stored_bytes(const std::string& path) const {
+  const Hdf5Handle dataset = open_dataset(id(), path);
+  if (!dataset) fail(path, "no such dataset");
+  return H5Dget_storage_size(dataset.get());
+}
+
 void Hdf5File::create_dataset(const std::string& path, Hdf5Type type, const Hdf5Dims& dims,
                               const Hdf5Layout& layout) {
   require(!dims.empty(), "an HDF5 dataset has extents");

@@ -48,6 +48,10 @@ void StateWriter::bytes(void* data, std::size_t size) {
   put(data, size);
 }
 
+void StateWriter::refuse() const {
+  throw Error(ErrorCode::internal, path_ + ": what is saved is not checked");
+}
+
 void StateWriter::commit() {
   const std::string digest = canonical(XXH3_128bits_digest(digest_.get()));
   put(digest.data(), digest.size());
@@ -57,10 +61,10 @@ void StateWriter::commit() {
 
 StateReader::StateReader(const std::string& path)
     : path_(path), file_(std::fopen(path.c_str(), "rb"), std::fclose) {
-  if (!file_) refuse(std::string("cannot be read (") + std::strerror(errno) + ")");
+  if (!file_) unreadable(std::string("cannot be read (") + std::strerror(errno) + ")");
   std::string mark(kMark.size(), '\0');
   if (std::fread(mark.data(), 1, mark.size(), file_.get()) != mark.size() || mark != kMark)
-    refuse("is not a checkpoint of this version of bemsim");
+    unreadable("is not a checkpoint of this version of bemsim");
   // everything else, the last bytes of which are the digest
   const std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> digest(XXH3_createState(),
                                                                       free_digest);
@@ -75,21 +79,24 @@ StateReader::StateReader(const std::string& path)
     left_ += done;
     held.erase(0, done);
   }
-  if (held != canonical(XXH3_128bits_digest(digest.get()))) refuse("is damaged");
+  if (held != canonical(XXH3_128bits_digest(digest.get()))) unreadable("is damaged");
   std::fseek(file_.get(), static_cast<long>(kMark.size()), SEEK_SET);
 }
 
 void StateReader::bytes(void* data, std::size_t size) {
-  if (size > left_ || std::fread(data, 1, size, file_.get()) != size)
-    refuse("does not hold the state of this scene");
+  if (size > left_ || std::fread(data, 1, size, file_.get()) != size) refuse();
   left_ -= size;
 }
 
 void StateReader::finish() {
-  if (left_ > 0) refuse("does not hold the state of this scene");
+  if (left_ > 0) refuse();
 }
 
-void StateReader::refuse(const std::string& what) const {
+void StateReader::refuse() const {
+  throw Error(ErrorCode::archive, path_ + ": does not hold the state of this scene");
+}
+
+void StateReader::unreadable(const std::string& what) const {
   throw Error(ErrorCode::invalid_input, path_ + ": " + what);
 }
 

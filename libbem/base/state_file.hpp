@@ -25,6 +25,8 @@ class StateWriter : public StateArchive {
 
  protected:
   void bytes(void* data, std::size_t size) override;
+  std::uint64_t left() const override { return UINT64_MAX; }
+  [[noreturn]] void refuse() const override;
 
  private:
   void put(const void* data, std::size_t size);
@@ -36,7 +38,8 @@ class StateWriter : public StateArchive {
 
 /// Restores a state in the order in which it was saved. Throws ErrorCode::invalid_input if the file
 /// is missing, foreign, of another version of the layout or damaged; the digest is checked before
-/// anything is given out.
+/// anything is given out. Throws ErrorCode::archive if it is whole, but holds something else than a
+/// state of the objects that are restored.
 class StateReader : public StateArchive {
  public:
   explicit StateReader(const std::string& path);
@@ -46,9 +49,11 @@ class StateReader : public StateArchive {
 
  protected:
   void bytes(void* data, std::size_t size) override;
+  std::uint64_t left() const override { return left_; }
+  [[noreturn]] void refuse() const override;
 
  private:
-  [[noreturn]] void refuse(const std::string& what) const;
+  [[noreturn]] void unreadable(const std::string& what) const;
 
   std::string path_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;

@@ -26,6 +26,11 @@ struct ConstraintStatistics {
   bool exhausted = false;         ///< the work allowed for a step was not enough
 
   bool converged() const { return joints_met && contacts_met && contacts_complete; }
+  void visit_state(StateArchive& state) {
+    state(contacts, iterations, sweeps, newton_steps, joints_met, contacts_met, contacts_complete);
+    state.any_numbers(joint_residual, contact_error, contact_residual, complementarity,
+                      penetration);
+  }
 };
 
 /// The work of a step is bounded: after these numbers of linear solves and sweeps of the contact

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/types.hpp"
+#include "base/state_archive.hpp"
 
 #include <array>
 #include <tuple>
@@ -39,6 +39,9 @@ struct ContactKey {
   int feature_b = -1;  ///< triangle or edge; 0 for a plane
   int view = 0;        ///< 0: as seen last; others: as seen before in the same step
 
+  void visit_state(StateArchive& state) {
+    state(surface_a, surface_b, kind, feature_a, feature_b, view);
+  }
   auto tuple() const { return std::tie(surface_a, surface_b, kind, feature_a, feature_b, view); }
   bool operator<(const ContactKey& other) const { return tuple() < other.tuple(); }
   bool operator==(const ContactKey& other) const { return tuple() == other.tuple(); }

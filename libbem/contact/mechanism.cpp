@@ -138,9 +138,15 @@ void Mechanism::add_forces(const Eigen::VectorXd& change) {
 
 void Mechanism::visit_state(StateArchive& state) {
   bool factorised = factors_ != nullptr;
-  state(active_, forces_, factorised);
+  state.resizable(active_);
+  state(forces_, factorised);
+  for (std::size_t j = 0; j < active_.size(); ++j)
+    state.check(active_[j] > (j > 0 ? active_[j - 1] : -1) &&
+                active_[j] < static_cast<int>(joints_.size()));
   if (state.restores()) factors_ = factorised ? std::make_unique<Lu<double>>() : nullptr;
-  if (factorised) state(*factors_);
+  if (!factorised) return;
+  state(*factors_);
+  state.check(factors_->size() == unknowns());
 }
 
 void Mechanism::apply_forces() {

@@ -63,6 +63,7 @@ class RigidFrame {
   /// Takes the last stage as the new state.
   void advance(const Stages& stages);
   void visit_state(StateArchive& state) { state(state_, previous_, step_); }
+  long step() const { return step_; }
 
   /// World position of the point x (relative to the centre of mass) with displacement u.
   Vec3 place(const Stages& s, int stage, const Vec3& x, const Vec3& u) const {
@@ -103,11 +104,13 @@ class RigidFrame {
   double time() const { return static_cast<double>(step_) * dt_; }
 
  private:
+  static constexpr double kOrthonormal = 1e-6;  ///< how well rotations are so
   struct State {
     Vec3 position, velocity, angular_momentum, turn;
     Mat3 rotation;
     void visit_state(StateArchive& state) {
       state(position, velocity, angular_momentum, turn, rotation);
+      state.check((rotation.transpose() * rotation).isIdentity(kOrthonormal));
     }
   };
   template <class T>

@@ -76,7 +76,7 @@ Eigen::VectorXd end_amplitudes(const Eigen::MatrixXd& y, const Eigen::VectorXcd&
 
 }  // namespace
 
-VibrationWatch::VibrationWatch() : samples_(kSignals, kMostSteps) {}
+VibrationWatch::VibrationWatch() : samples_(Eigen::MatrixXd::Zero(kSignals, kMostSteps)) {}
 
 void VibrationWatch::add(const Eigen::VectorXd& displacement) {
   if (weights_.cols() != displacement.size()) weights_ = signal_weights(displacement.size());

@@ -11,6 +11,7 @@ namespace bem {
 struct Vibration {
   double growth = 1;     ///< factor of its amplitude per step
   double frequency = 0;  ///< [periods per step]
+  void visit_state(StateArchive& state) { state(growth, frequency); }
 };
 
 /// Finds vibrations of an undisturbed body that grow. Nothing in nature does that: it is the
@@ -34,7 +35,10 @@ class VibrationWatch {
   /// left out.
   std::optional<Vibration> growing() const;
 
-  void visit_state(StateArchive& state) { state(samples_, count_, found_); }
+  void visit_state(StateArchive& state) {
+    state(samples_, count_, found_);
+    state.check(count_ >= 0 && count_ < samples_.cols());
+  }
 
  private:
   Vibration examined() const;

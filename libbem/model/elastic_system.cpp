@@ -33,6 +33,7 @@ void LagHistory::push(const Eigen::MatrixXd& stages) {
 
 void LagHistory::visit_state(StateArchive& state) {
   state(ring_, zero_, newest_);
+  state.check(newest_ < ring_.size() || newest_ == 0);
   if (!state.restores() || !family_) return;
   for (std::size_t i = 0; i < ring_.size(); ++i)
     if (!zero_[i]) family_->analyse_columns(ring_[i], coefficients_[i]);
@@ -85,6 +86,13 @@ void ElasticSystem::add_input_history(const InputColumns& columns, const LagHist
       component_sums.col(m).noalias() +=
           columns.lags[model_.lag_index(k, m)] * (inputs.factor(k) * inputs.lag(k).col(m));
   }
+}
+
+bool SolutionMemory::fits(std::size_t components, Eigen::Index unknowns) const {
+  for (const std::deque<Pair>& pairs : pairs_)
+    for (const Pair& p : pairs)
+      if (p.u.size() != unknowns || p.b.size() != unknowns) return false;
+  return pairs_.size() <= components;
 }
 
 Eigen::VectorXcd SolutionMemory::guess(int component, const Eigen::VectorXcd& b) const {

@@ -71,12 +71,14 @@ class SolutionMemory {
   /// The combination of known solutions whose right-hand side is nearest to b.
   Eigen::VectorXcd guess(int component, const Eigen::VectorXcd& b) const;
   void add(int component, Eigen::VectorXcd u, Eigen::VectorXcd b);
-  void visit_state(StateArchive& state) { state(pairs_); }
+  void visit_state(StateArchive& state) { state.resizable(pairs_); }
+  /// Whether what was restored is of vectors of this size.
+  bool fits(std::size_t components, Eigen::Index unknowns) const;
 
  private:
   struct Pair {
     Eigen::VectorXcd u, b;  ///< the b of a component are orthonormal
-    void visit_state(StateArchive& state) { state(u, b); }
+    void visit_state(StateArchive& state) { state.resizable(u, b); }
   };
   std::vector<std::deque<Pair>> pairs_;  ///< [component], oldest first
 };

@@ -24,4 +24,10 @@ struct BodyGeometry {
 /// O(n log n).
 BodyGeometry make_geometry(const Surface& surface, double density);
 
+/// Checks a geometry that was read back as make_surface() and make_geometry() check and make one:
+/// its mesh is a closed manifold, nodes and triangles are those of the input, and volume, mass,
+/// inertia and extent are theirs. Throws ErrorCode::invalid_input as make_surface(). Indices are in
+/// range. O(n log n).
+void check_geometry(const BodyGeometry& geometry, double density, const std::string& source_name);
+
 }  // namespace bem

@@ -4,6 +4,7 @@
 #include "compress/dense_family.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 namespace bem {
@@ -67,8 +68,19 @@ void NodalHistory::push(const NodalLoad& load) {
   }
 }
 
+void NodalHistory::visit_state(StateArchive& state, const NodalTractions* tractions) {
+  state(ring_, newest_);
+  state.check(newest_ < ring_.size() || newest_ == 0);
+  for (const Lag& lag : ring_) {
+    if (lag.columns.empty()) continue;
+    state.check(lag.inputs.rows() == static_cast<Eigen::Index>(lag.columns.size()) &&
+                lag.inputs.cols() == right_.cols());
+    state.check(tractions && tractions->has_columns(lag.columns));
+  }
+}
+
 NodalTractions::NodalTractions(const ElasticSystem& system, TractionData data)
-    : system_(system), lags_(std::move(data.lags)) {
+    : system_(system), columns_(unknowns_of(data.nodes)), lags_(std::move(data.lags)) {
   const RigidProjection& projection = system.projection();
   const Eigen::MatrixXcd functional = projection.rigid().transpose().cast<Complex>();
   for (std::size_t c = 0; c < data.initial.size(); ++c) {
@@ -79,6 +91,12 @@ NodalTractions::NodalTractions(const ElasticSystem& system, TractionData data)
     acceleration_.push_back(projection.accelerations_of_rigid(
         static_cast<int>(c), response_.back()->multiply_transposed(functional).transpose()));
   }
+}
+
+bool NodalTractions::has_columns(const std::vector<int>& columns) const {
+  return std::adjacent_find(columns.begin(), columns.end(), std::greater_equal<>()) ==
+             columns.end() &&
+         std::includes(columns_.begin(), columns_.end(), columns.begin(), columns.end());
 }
 
 std::size_t NodalTractions::bytes() const {

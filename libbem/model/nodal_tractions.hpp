@@ -22,6 +22,8 @@ struct NodalLoad {
   Eigen::MatrixXd stages;  ///< 3 nodes.size() x s [Pa, body axes]
 };
 
+class NodalTractions;
+
 /// Past nodal loads. Few nodes carry any, so every lag keeps its own list.
 class NodalHistory {
  public:
@@ -30,14 +32,15 @@ class NodalHistory {
 
   /// Makes `load` that of lag 1; older ones move on by one lag.
   void push(const NodalLoad& load);
-  void visit_state(StateArchive& state) { state(ring_, newest_); }
+  /// `tractions`: that all loads belong to, or null if there are none.
+  void visit_state(StateArchive& state, const NodalTractions* tractions);
   /// The window's weight on a lag.
   double factor(int k) const { return std::pow(window_, k); }
 
   struct Lag {
     std::vector<int> columns;  ///< 3 node + axis
     Eigen::MatrixXd inputs;    ///< columns.size() x components
-    void visit_state(StateArchive& state) { state(columns, inputs); }
+    void visit_state(StateArchive& state) { state.resizable(columns, inputs); }
   };
   const Lag& lag(int k) const { return ring_[(newest_ + k - 1) % ring_.size()]; }
   int length() const { return static_cast<int>(ring_.size()); }
@@ -55,6 +58,8 @@ class NodalTractions {
   NodalTractions(const ElasticSystem& system, TractionData data);
 
   std::size_t bytes() const;
+  /// Whether these unknowns, which ascend, belong to its nodes.
+  bool has_columns(const std::vector<int>& columns) const;
 
   /// component_sums (3N x components) += sum_k G_k p_{n-k}. Reads the columns of loaded nodes.
   void add_history(const NodalHistory& history, Eigen::MatrixXd& component_sums) const;
@@ -75,6 +80,7 @@ class NodalTractions {
 
  private:
   const ElasticSystem& system_;
+  std::vector<int> columns_;  ///< unknowns of the nodes, ascending
   std::shared_ptr<const MatrixFamily> lags_;
   std::vector<std::unique_ptr<TractionResponse>> response_;
   std::vector<Eigen::MatrixXcd> acceleration_;  ///< z, 6 x 3N, by initial component

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/file_io.hpp"
+#include "output/trajectory_file.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -44,15 +45,17 @@ Hdf5Dims chunk(const Hdf5Dims& extents) {
 /// The trajectory of an earlier run, which must hold some frames of the bodies.
 Hdf5File open_earlier(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
                       std::size_t frames) {
-  Hdf5File file =
-      Hdf5File::open_growing(directory + "/" + kTrajectoryFile, ErrorCode::invalid_input);
-  bool fits = file.dims("/time")[0] >= frames && file.children("/bodies").size() == bodies.size();
-  for (const TrajectoryBody& body : bodies)
-    fits = fits && file.dims(group(body) + "/positions")[1] == body.vertices &&
-           file.exists(group(body) + "/tractions") == body.tractions;
-  if (!fits)
-    throw Error(ErrorCode::invalid_input, file.path() + ": does not hold the frames to go on from");
-  return file;
+  const std::string path = directory + "/" + kTrajectoryFile;
+  {
+    const TrajectoryFile earlier(path, ErrorCode::invalid_input);  // checks what is in it
+    bool fits = earlier.times().size() >= frames && earlier.body_count() == bodies.size();
+    for (const TrajectoryBody& body : bodies)
+      fits = fits && earlier.vertices(body.name) == body.vertices &&
+             earlier.has_tractions(body.name) == body.tractions;
+    if (!fits)
+      throw Error(ErrorCode::invalid_input, path + ": does not hold the frames to go on from");
+  }
+  return Hdf5File::open_growing(path, ErrorCode::invalid_input);
 }
 
 Frame read_frame(const Hdf5File& file, const std::vector<TrajectoryBody>& bodies,

@@ -355,7 +355,10 @@ void Simulation::end_step() {
 /// Contacts are found anew in every step, but for broken ones.
 void Simulation::visit_state(StateArchive& state) {
   state(steps_, statistics_, momentum_, times_, broken_);
-  for (Body& body : bodies_) state(body);
+  for (Body& body : bodies_) {
+    state(body);
+    state.check(body.frame().step() == steps_);
+  }
   state(*constraints_);
 }
 

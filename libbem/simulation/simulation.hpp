@@ -13,6 +13,9 @@ struct PhaseTimes {
   double collision = 0;      ///< detection
   double constraints = 0;    ///< frame, loads, joints and contacts
   double correction = 0;     ///< displacements of the new step, history
+  void visit_state(StateArchive& state) {
+    state(unconstrained, collision, constraints, correction);
+  }
 };
 
 /// Loads what a scene needs of its files.

@@ -3,28 +3,34 @@
 #include "mesh/surface.hpp"
 
 namespace bem {
+namespace {
+
+/// The triangles of nodes of a closed surface; a mesh that is none does not come from bemsim.
+std::vector<Triangle> outward(TriangleMesh mesh, const std::string& path) {
+  try {
+    return make_surface(std::move(mesh), path).nodes.triangles;
+  } catch (const Error& e) {
+    throw Error(ErrorCode::archive, e.what());
+  }
+}
+
+}  // namespace
 
 Trajectory::Trajectory(const std::string& path, const Scene& scene)
-    : file_(Hdf5File::open(path, ErrorCode::archive)), times_(file_.read<double>("/time")) {
+    : file_(path, ErrorCode::archive) {
   for (const BodySpec& body : scene.bodies) {
-    names_.push_back("/bodies/" + body.name);
-    const std::string faces = names_.back() + "/faces";
-    const std::vector<std::int32_t> corners = file_.read<std::int32_t>(faces);
-    std::vector<Triangle> triangles(corners.size() / 3);
-    for (std::size_t i = 0; i < corners.size(); ++i) triangles[i / 3][i % 3] = corners[i];
-    triangles_.push_back(std::move(triangles));
+    names_.push_back(body.name);
+    triangles_.push_back(file_.faces(body.name));
     // Outward, whatever the file of the mesh said.
-    if (!times_.empty())
-      triangles_.back() = make_surface(this->body(names_.size() - 1, 0), path).nodes.triangles;
+    if (!times().empty()) triangles_.back() = outward(this->body(names_.size() - 1, 0), path);
   }
 }
 
 TriangleMesh Trajectory::body(std::size_t b, std::size_t k) const {
-  const std::string positions = names_[b] + "/positions";
   TriangleMesh mesh;
   mesh.triangles = triangles_[b];
-  mesh.vertices.resize(file_.dims(positions)[1]);
-  file_.read_rows(positions, k, 1, mesh.vertices.front().data());
+  mesh.vertices.resize(file_.vertices(names_[b]));
+  file_.read(names_[b], "/positions", {mesh.vertices.size(), 3}, k, mesh.vertices.data()->data());
   return mesh;
 }
 

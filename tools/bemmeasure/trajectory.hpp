@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/hdf5.hpp"
 #include "mesh/triangle_mesh.hpp"
+#include "output/trajectory_file.hpp"
 #include "scene/scene.hpp"
 
 #include <string>
@@ -15,13 +15,12 @@ class Trajectory {
   /// Throws ErrorCode::archive if the file is not a trajectory of the scene's bodies.
   Trajectory(const std::string& path, const Scene& scene);
 
-  const std::vector<double>& times() const { return times_; }  ///< [s]
+  const std::vector<double>& times() const { return file_.times(); }  ///< [s]
   /// Body b in frame k, world coordinates.
   TriangleMesh body(std::size_t b, std::size_t k) const;
 
  private:
-  Hdf5File file_;
-  std::vector<double> times_;
+  TrajectoryFile file_;
   std::vector<std::string> names_;
   std::vector<std::vector<Triangle>> triangles_;
 };

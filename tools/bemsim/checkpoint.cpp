@@ -57,7 +57,8 @@ std::string checkpoint_path(const std::string& directory) {
 }
 
 std::unique_ptr<StateReader> open_checkpoint(const std::string& directory,
-                                             const RunIdentity& identity, long planned_steps) {
+                                             const RunIdentity& identity, long planned_steps,
+                                             long& steps) {
   const std::string path = checkpoint_path(directory);
   std::error_code unknown;
   if (!std::filesystem::exists(path, unknown))
@@ -66,7 +67,6 @@ std::unique_ptr<StateReader> open_checkpoint(const std::string& directory,
                                       "--resume, and with --checkpoint-every to make one");
   auto reader = std::make_unique<StateReader>(path);
   RunIdentity earlier;
-  long steps = 0;
   (*reader)(earlier, steps);
   const auto refuse = [&](ErrorCode code, const std::string& what) {
     throw Error(code, path + ": " + what);

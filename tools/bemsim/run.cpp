@@ -53,7 +53,7 @@ class Run {
     timer_.begin(kLoadingPhase);
     if (options.resume || options.checkpoint_every > 0) identity_ = identity_of(plan, options);
     std::unique_ptr<StateReader> earlier;
-    if (options.resume) earlier = open_checkpoint(options.output, identity_, plan.steps);
+    if (options.resume) earlier = open_checkpoint(options.output, identity_, plan.steps, saved_);
     simulation_ = std::make_unique<Simulation>(plan.scene, source);
     check_interrupt();
     bar_.finish();
@@ -122,8 +122,9 @@ class Run {
   void restore(StateReader& earlier) {
     earlier(kept_, statistics_, timer_, *simulation_);
     earlier.finish();
+    earlier.check(simulation_->steps() == saved_ && saved_ >= 0 &&
+                  statistics_.frames() == plan_.schedule.count(saved_));
     check_output_records(plan_, options_.output, kept_frames(), kept_);
-    saved_ = simulation_->steps();
     log_.info("going on from t = " + to_text(simulation_->time()) + " s: " + progress());
     timer_.begin(kLoadingPhase);
   }

@@ -31,6 +31,10 @@ class UnmetConstraints {
     long steps = 0;
     double worst = 0;  ///< [m]
     void add(double miss);
+    void visit_state(StateArchive& state) {
+      state(steps);
+      state.any_numbers(worst);
+    }
   };
   long steps_ = 0;
   double first_ = 0;  ///< time at the end of the first one [s]

@@ -74,7 +74,7 @@ void PhaseTimer::end() {
 void PhaseTimer::visit_state(StateArchive& state) {
   end();
   std::vector<Phase> phases = phases_;
-  state(phases);
+  state.resizable(phases);
   if (!state.restores()) return;
   for (Phase& own : phases_) {
     const auto same = [&own](const Phase& p) { return p.name == own.name; };

@@ -2,7 +2,9 @@
 #include "base/state_file.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <cmath>
 #include <fstream>
+#include <functional>
 
 #include <catch2/catch.hpp>
 
@@ -30,7 +32,8 @@ struct Sample {
   Eigen::MatrixXf single;
   Eigen::VectorXcd complex;
   void visit_state(StateArchive& state) {
-    state(count, text, numbers, parts, queue, map, matrix, single, complex);
+    state(count, text, queue, map);
+    state.resizable(numbers, parts, matrix, single, complex);
   }
 };
 
@@ -146,4 +149,87 @@ TEST_CASE("a state must be restored as a whole, and not more than that") {
   StateReader more(folder / "s");
   more(sample);
   CHECK_THROWS_AS(more(count), Error);
+}
+
+namespace {
+
+/// The objects of a state, and one that was made in the same way.
+struct Fixed {
+  std::vector<int> numbers = {1, 2, 3};
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Ones(2, 3);
+  double value = 1, any = 2;
+  bool flag = true;
+  std::vector<double> free;
+  void visit_state(StateArchive& state) {
+    state(numbers, matrix, value, flag);
+    state.any_numbers(any);
+    state.resizable(free);
+    state.check(free.size() < 5);
+  }
+};
+
+/// Code of restoring what `change` makes of a state.
+int code_after(const std::function<void(Fixed&)>& change) {
+  const test::TemporaryFolder folder("state_fixed");
+  Fixed saved, restored;
+  change(saved);
+  StateWriter writer(folder / "s");
+  writer(saved);
+  writer.commit();
+  try {
+    StateReader reader(folder / "s");
+    reader(restored);
+    reader.finish();
+  } catch (const Error& e) {
+    return static_cast<int>(e.code());
+  }
+  return 0;
+}
+
+/// A state of numbers as they are.
+struct Raw {
+  std::vector<std::uint64_t> numbers;
+  void visit_state(StateArchive& state) {
+    for (std::uint64_t& n : numbers) state(n);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("sizes that an object has, and finite numbers, must come back") {
+  CHECK(code_after([](Fixed&) {}) == 0);
+  CHECK(code_after([](Fixed& f) { f.any = std::nan(""); }) == 0);
+  CHECK(code_after([](Fixed& f) { f.free = {1, 2, 3, 4}; }) == 0);
+  CHECK(code_after([](Fixed& f) { f.numbers.pop_back(); }) == 4);
+  CHECK(code_after([](Fixed& f) { f.matrix = Eigen::MatrixXd::Ones(3, 2); }) == 4);
+  CHECK(code_after([](Fixed& f) { f.matrix(1, 1) = std::nan(""); }) == 4);
+  CHECK(code_after([](Fixed& f) { f.value = INFINITY; }) == 4);
+  CHECK(code_after([](Fixed& f) { f.free = {1, INFINITY}; }) == 4);
+  CHECK(code_after([](Fixed& f) { f.free.assign(5, 1.0); }) == 4);
+}
+
+TEST_CASE("sizes that the data cannot fill are not believed") {
+  const test::TemporaryFolder folder("state_sizes");
+  const auto code_of = [&](std::vector<std::uint64_t> numbers, auto restored) {
+    StateWriter writer(folder / "s");
+    Raw raw{std::move(numbers)};
+    writer(raw);
+    writer.commit();
+    try {
+      StateReader reader(folder / "s");
+      reader.resizable(restored);
+    } catch (const Error& e) {
+      return static_cast<int>(e.code());
+    }
+    return 0;
+  };
+  for (std::uint64_t n : {std::uint64_t(3), std::uint64_t(1) << 35, std::uint64_t(1) << 61,
+                          std::uint64_t(1) << 63, ~std::uint64_t(0)}) {
+    CAPTURE(n);
+    CHECK(code_of({n, 7, 8}, std::vector<double>()) == 4);
+    CHECK(code_of({n, 7, 8}, std::vector<Eigen::MatrixXd>()) == 4);
+    CHECK(code_of({n, 1, 8}, Eigen::MatrixXd()) == 4);
+    CHECK(code_of({n, n, 8}, Eigen::MatrixXd()) == 4);
+  }
+  CHECK(code_of({2, 0, 0}, std::vector<double>()) == 0);
 }

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "base/hdf5.hpp"
+#include "base/types.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace bem {
+
+/// A trajectory.h5 (output/hdf5_trajectory.hpp) that is read back. Structure, types and extents are
+/// checked before anything is read, and that numbers are finite when they are. Everything throws
+/// Error with the code that it was opened with and a message that names file and place.
+class TrajectoryFile {
+ public:
+  /// Opens a complete trajectory, or one whose writer was stopped. Reads it once (file_check.hpp).
+  TrajectoryFile(const std::string& path, ErrorCode error);
+
+  const std::string& path() const { return file_.path(); }
+  const std::vector<double>& times() const { return times_; }  ///< of the frames, ascending [s]
+  std::size_t body_count() const { return file_.children("/bodies").size(); }
+  std::size_t vertices(const std::string& body) const;
+  bool has_tractions(const std::string& body) const;
+  /// Vertex indices.
+  std::vector<std::array<int, 3>> faces(const std::string& body) const;
+
+  /// A frame of what the body has under `name` ("/positions"), with extents [frames, ...extents].
+  void read(const std::string& body, const std::string& name, const Hdf5Dims& extents,
+            std::size_t frame, double* out) const;
+
+ private:
+  std::string series(const std::string& body, const std::string& name) const;
+  void check_finite(const std::string& path, const double* numbers, std::size_t count) const;
+
+  Hdf5File file_;
+  std::vector<double> times_;
+};
+
+}  // namespace bem

@@ -1,0 +1,52 @@
+/// Checkpoints: the input is the state of the small scene; mark and digest are made by the target.
+
+#include "base/parallel.hpp"
+#include "base/state_file.hpp"
+#include "fuzz_scene.hpp"
+#include "support/temporary_folder.hpp"
+#include "target.hpp"
+
+namespace bem_fuzz {
+namespace {
+
+/// The first byte of an input chooses the model: one with stored inverses or one without.
+bem_test::MemorySource& source(bool iterative) {
+  static bem_test::MemorySource sources[2];
+  static const bool made = [] {
+    sources[0].add("b", small_model("radau2", bem::Codec::lowrank));
+    sources[1].add("b", small_model("bdf2", bem::Codec::none, bem::InverseKind::iterative));
+    return true;
+  }();
+  static_cast<void>(made);
+  return sources[iterative ? 1 : 0];
+}
+
+void restore(const std::string& path, bool iterative) {
+  bem::Simulation simulation(small_scene(), source(iterative));
+  bem::StateReader reader(path);
+  reader(simulation);
+  reader.finish();
+  for (int step = 0; step < 2; ++step) simulation.step();
+}
+
+}  // namespace
+
+bool run(const std::string& input) {
+  static const bem::test::TemporaryFolder folder("fuzz_checkpoint");
+  bem::set_thread_count(1);
+  if (input.empty()) return false;
+  const std::string path = folder / "state";
+  bem::StateWriter writer(path);
+  for (std::size_t i = 1; i < input.size(); ++i) {
+    char byte = input[i];
+    writer(byte);
+  }
+  writer.commit();
+  return accepted([&] { restore(path, input[0] == 1); });
+}
+
+std::string repaired(std::string input) {
+  return input;
+}
+
+}  // namespace bem_fuzz

@@ -1,0 +1,98 @@
+/// Makes the seeds of all targets: fuzz_corpus FOLDER SCENES_FOLDER.
+
+#include "archive/archive_writer.hpp"
+#include "base/state_file.hpp"
+#include "fuzz_scene.hpp"
+#include "mesh/mesh_io.hpp"
+#include "mesh/shapes.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+using namespace bem;
+using namespace bem_fuzz;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+void write(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+void meshes(const fs::path& folder) {
+  write_obj((folder / "ball.obj").string(), icosphere(0, 0.1));
+  write(folder / "polygons.obj",
+        "# a cube of quadrilaterals\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\n"
+        "v 1 1 1\nv 0 1 1\nvn 0 0 1\nvt 0 0\nf 4/1/1 3/1/1 2/1/1 1/1/1\nf 5//1 6//1 7//1 8//1\n"
+        "f 1/1 2/1 6/1 5/1\nf -7 -6 -2 -3\nf 3 4 \\\n 8 7\nf 4 1 5 8\n");
+}
+
+void materials(const fs::path& folder) {
+  write(folder / "shear.json",
+        R"({"name": "rubber", "density": 1000, "poisson_ratio": 0.3, "shear_modulus": 1e5})");
+  write(folder / "young.json",
+        R"({"name": "stahl \u00e9", "density": 7.8e3, "poisson_ratio": 0.5, "youngs_modulus": 2e11,
+            "time_step": 0.001})");
+}
+
+void scenes(const fs::path& folder, const fs::path& from) {
+  for (const auto& entry : fs::recursive_directory_iterator(from))
+    if (entry.path().extension() == ".json" && entry.file_size() < 6000)
+      fs::copy_file(entry.path(), folder / entry.path().filename());
+}
+
+void archive(const fs::path& folder, const std::string& name, const BodyModel& model) {
+  const std::string path = (folder / name).string();
+  write_archive(path, model, {"bem", "octahedron.obj", "rubber.json", 1, ""}, true);
+  write(path, bytes_of(path).substr(kUserBlock));
+}
+
+void archives(const fs::path& folder) {
+  for (const char* scheme : {"bdf1", "radau2"}) {
+    archive(folder, std::string(scheme) + "-none", small_model(scheme, Codec::none));
+    archive(folder, std::string(scheme) + "-lowrank", small_model(scheme, Codec::lowrank));
+    archive(folder, std::string(scheme) + "-haar", small_model(scheme, Codec::haar));
+  }
+  archive(folder, "iterative", small_model("bdf2", Codec::lowrank, InverseKind::iterative));
+  archive(folder, "static",
+          small_model("bdf1", Codec::none, InverseKind::dense, ModelKind::quasistatic));
+  archive(folder, "rigid", small_model("bdf1", Codec::none, InverseKind::dense, ModelKind::rigid));
+}
+
+void checkpoint(const fs::path& folder, bool iterative) {
+  bem_test::MemorySource source;
+  source.add("b", iterative ? small_model("bdf2", Codec::none, InverseKind::iterative)
+                            : small_model("radau2", Codec::lowrank));
+  Simulation simulation(small_scene(), source);
+  for (int step = 0; step < 3; ++step) simulation.step();
+  const std::string path = (folder / (iterative ? "iterative" : "dense")).string();
+  StateWriter writer(path);
+  writer(simulation);
+  writer.commit();
+  constexpr std::size_t kMark = 16, kDigest = 16;
+  const std::string bytes = bytes_of(path);
+  write(path, (iterative ? '\1' : '\0') + bytes.substr(kMark, bytes.size() - kMark - kDigest));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  const fs::path folder = argv[1];
+  fs::remove_all(folder);
+  for (const char* target : {"mesh", "material", "scene", "archive", "checkpoint"})
+    fs::create_directories(folder / target);
+  meshes(folder / "mesh");
+  materials(folder / "material");
+  scenes(folder / "scene", argv[2]);
+  archives(folder / "archive");
+  for (bool iterative : {false, true}) checkpoint(folder / "checkpoint", iterative);
+  return 0;
+}
