@@ -49,7 +49,7 @@ void StateWriter::bytes(void* data, std::size_t size) {
 }
 
 void StateWriter::refuse() const {
-  throw Error(ErrorCode::internal, path_ + ": what is saved is not checked");
+  throw Error(ErrorCode::internal, "the state that is saved is not one that is checked");
 }
 
 void StateWriter::commit() {
