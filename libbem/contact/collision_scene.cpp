@@ -2,10 +2,10 @@
 
 #include "contact/bounding_tree.hpp"
 #include "contact/penetration.hpp"
-#include "contact/surface_topology.hpp"
 #include "scene/motion.hpp"
 
 #include <algorithm>
+#include <memory>
 
 namespace bem {
 namespace {
@@ -103,31 +103,25 @@ std::vector<CollisionScene::Overlap> CollisionScene::overlaps() {
   begin_step(0, 0);
   std::vector<Overlap> out;
   std::vector<BoundingBox> boxes;
-  for (const std::vector<Vec3>& surface : start_) {
-    boxes.emplace_back();
-    for (const Vec3& x : surface) extend(boxes.back(), {x, x});
-  }
-  const auto depth = [&](std::size_t a, std::size_t b) {
-    if (!overlap(boxes[a], boxes[b])) return 0.0;
-    const SurfaceTopology t = make_topology(triangles(b), static_cast<int>(start_[b].size()));
-    const bool closed = std::all_of(t.edges.begin(), t.edges.end(),
-                                    [](const auto& edge) { return edge.triangles[1] >= 0; });
-    return closed ? deepest_penetration(start_[a], t.triangles, start_[b]).depth : 0.0;
+  for (const std::vector<Vec3>& surface : start_) boxes.push_back(bounding_box(surface));
+  std::vector<std::unique_ptr<PenetrableSurface>> surfaces(start_.size());
+  const auto depth = [&](int a, int b) {
+    if (!surfaces[b]) surfaces[b] = std::make_unique<PenetrableSurface>(triangles(b), start_[b]);
+    return surfaces[b]->is_closed() ? surfaces[b]->deepest(start_[a]).depth : 0.0;
   };
   const auto add = [&](std::size_t a, const std::string& b, double by) {
     if (by > scene_.contact.tolerance) out.push_back({bodies_[a].name(), b, by});
   };
-  for (std::size_t a = 0; a < bodies_.size(); ++a) {
-    for (std::size_t b = a + 1; b < start_.size(); ++b) {
-      if (!detector_.is_allowed(static_cast<int>(a), static_cast<int>(b))) continue;
-      add(a, b < bodies_.size() ? bodies_[b].name() : obstacles_[b - bodies_.size()].spec->name,
+  const auto body_count = static_cast<int>(bodies_.size());
+  for (const auto& [a, b] : overlapping_pairs(boxes))
+    if (a < body_count && detector_.is_allowed(a, b))
+      add(a, b < body_count ? bodies_[b].name() : obstacles_[b - body_count].spec->name,
           std::max(depth(a, b), depth(b, a)));
-    }
+  for (std::size_t a = 0; a < bodies_.size(); ++a)
     for (const ObstacleSpec& o : scene_.obstacles)
       if (const auto* plane = std::get_if<PlaneObstacle>(&o.shape))
         add(a, o.name,
             deepest_penetration(start_[a], CollisionPlane{plane->point, plane->normal}).depth);
-  }
   return out;
 }
 

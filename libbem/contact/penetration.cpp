@@ -1,12 +1,12 @@
 #include "contact/penetration.hpp"
 
-#include "contact/bounding_tree.hpp"
 #include "contact/closest_points.hpp"
 #include "contact/moving_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace bem {
 namespace {
@@ -82,24 +82,33 @@ class NearestTriangle {
 
 }  // namespace
 
-Penetration deepest_penetration(const std::vector<Vec3>& points,
-                                const std::vector<Triangle>& triangles,
-                                const std::vector<Vec3>& vertices) {
+PenetrableSurface::PenetrableSurface(const std::vector<Triangle>& triangles,
+                                     std::vector<Vec3> vertices)
+    : vertices_(std::move(vertices)),
+      topology_(make_topology(triangles, static_cast<int>(vertices_.size()))),
+      tree_(triangles, vertices_),
+      closed_(std::all_of(topology_.edges.begin(), topology_.edges.end(),
+                          [](const auto& edge) { return edge.triangles[1] >= 0; })) {}
+
+Penetration PenetrableSurface::deepest(const std::vector<Vec3>& points) const {
   Penetration deepest;
-  if (triangles.empty()) return deepest;
-  const SurfaceTopology topology = make_topology(triangles, static_cast<int>(vertices.size()));
-  const MovingSurface surface{0, &topology, &vertices, &vertices};
-  const BoundingTree tree(triangles, vertices);
-  const bool closed = std::all_of(topology.edges.begin(), topology.edges.end(),
-                                  [](const auto& edge) { return edge.triangles[1] >= 0; });
+  if (topology_.triangles.empty()) return deepest;
+  const MovingSurface surface{0, &topology_, &vertices_, &vertices_};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (squared_distance(points[i], tree.nodes().front().box) > 0) continue;
-    const double depth = -NearestTriangle(tree, surface, points[i]).signed_distance();
+    if (squared_distance(points[i], tree_.nodes().front().box) > 0) continue;
+    const double depth = -NearestTriangle(tree_, surface, points[i]).signed_distance();
     // next to a fold of a deformed surface the nearest triangle may be the wrong way round
-    if (depth > deepest.depth && (!closed || winding_number(points[i], triangles, vertices) > 0.5))
+    if (depth > deepest.depth &&
+        (!closed_ || winding_number(points[i], topology_.triangles, vertices_) > 0.5))
       deepest = {depth, static_cast<int>(i)};
   }
   return deepest;
+}
+
+Penetration deepest_penetration(const std::vector<Vec3>& points,
+                                const std::vector<Triangle>& triangles,
+                                const std::vector<Vec3>& vertices) {
+  return PenetrableSurface(triangles, vertices).deepest(points);
 }
 
 Penetration deepest_penetration(const std::vector<Vec3>& points, const CollisionPlane& plane) {
