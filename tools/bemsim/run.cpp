@@ -168,6 +168,7 @@ class Run {
     const long steps = simulation_->steps();
     if (steps == saved_) return;
     timer_.begin(kCheckpointPhase);
+    for (const auto& writer : writers_) writer->flush();
     save_checkpoint(options_.output, identity_, steps, statistics_, timer_, *simulation_);
     saved_ = steps;
   }
