@@ -4,6 +4,15 @@
 // What a body shows of its motion.
 
 namespace bem {
+namespace {
+
+/// Of motions that have no meaning any more.
+constexpr const char* kCures =
+    "if its loads or handles do that, make them smaller or its material stiffer, or cut it into "
+    "parts that welds join; if not, its motion is unstable: make its archive with --window auto "
+    "(or a smaller window), a larger --dt, a smaller --codec-tol or a finer mesh";
+
+}  // namespace
 
 Impulses Body::impulses() const {
   Impulses out;
@@ -87,13 +96,9 @@ void Body::check_end() const {
   if (is_rigid()) return;
   const double most = end_displacement_.cwiseAbs().maxCoeff() / model().geometry.extent;
   if (most > kMostDeformation)
-    throw Error(
-        ErrorCode::numerical,
-        "body \"" + spec_.name + "\" is deformed to " + std::to_string(static_cast<long>(most)) +
-            " times its size" + when +
-            ": if its loads do not do that, its motion is unstable; make its archive with "
-            "--window auto (or a smaller window), a larger --dt, a smaller --codec-tol or a "
-            "finer mesh");
+    throw Error(ErrorCode::numerical, "body \"" + spec_.name + "\" is deformed to " +
+                                          std::to_string(static_cast<long>(most)) +
+                                          " times its size" + when + ": " + kCures);
 }
 
 void Body::check_inversion() const {
@@ -106,8 +111,7 @@ void Body::check_inversion() const {
                   (volume > 0 ? std::to_string(static_cast<long>(100 * share)) +
                                     " % of its surface have gone through zero area"
                               : "its volume is " + std::to_string(volume) + " times that at rest") +
-                  ", which linear elasticity does not forbid; make its loads and motions smaller "
-                  "or its material stiffer, or cut it into parts that welds join");
+                  ", which linear elasticity does not forbid: " + kCures);
 }
 
 }  // namespace bem
