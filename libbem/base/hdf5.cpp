@@ -33,6 +33,12 @@ Hdf5Handle new_file_access(Hdf5Io& io, bool swmr) {
   Hdf5Handle access = file_access(io, false);
   const H5F_libver_t version = swmr ? H5F_LIBVER_V110 : H5F_LIBVER_V18;
   require(H5Pset_libver_bounds(access.get(), version, version) >= 0, "HDF5 format version");
+  // A flush gives back what is reserved for small objects to come: without such reserves the bytes
+  // of a file that grows do not depend on when it is flushed.
+  if (swmr)
+    require(H5Pset_meta_block_size(access.get(), 0) >= 0 &&
+                H5Pset_small_data_block_size(access.get(), 0) >= 0,
+            "HDF5 files without reserves");
   return access;
 }
 

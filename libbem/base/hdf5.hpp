@@ -134,6 +134,7 @@ class Hdf5File {
   std::int64_t int_attribute(const std::string& object, const std::string& name) const;
 
  private:
+  friend class Hdf5Rows;
   using Id = std::int64_t;  // hid_t
 
   Hdf5File(std::string path, ErrorCode error, Id id, std::unique_ptr<Hdf5Io> io);

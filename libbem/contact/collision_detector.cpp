@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace bem {
@@ -149,12 +148,11 @@ struct CollisionDetector::State {
   std::vector<char> prescribed, self_contact;
   std::vector<double> recovery_depth;  ///< by surface [m]
   std::vector<CollisionPlane> planes;
-  CollisionOptions options;
+  CollisionOptions options;  ///< ignored pairs with the first < second, sorted
 
   bool is_allowed(int a, int b) const {
     const auto& ignored = options.ignored_pairs;
-    return std::find(ignored.begin(), ignored.end(), Pair(a, b)) == ignored.end() &&
-           std::find(ignored.begin(), ignored.end(), Pair(b, a)) == ignored.end();
+    return !std::binary_search(ignored.begin(), ignored.end(), Pair(std::minmax(a, b)));
   }
 
   std::vector<ContactKey> pressed;  ///< see detect()
@@ -167,7 +165,7 @@ struct CollisionDetector::State {
 
   std::map<Pair, PairState> pairs;  ///< of the last detection
 
-  /// Every pair that may have contacts, first < second, sorted. Sweep along x.
+  /// Every pair that may have contacts, first < second, sorted.
   std::vector<Pair> close_pairs() const;
   /// Takes the pairs, with what is known of them already.
   std::vector<std::pair<const Pair, PairState>*> keep_pairs(const std::vector<Pair>& close);
@@ -182,23 +180,13 @@ bool CollisionDetector::State::is_pressed(const Pair& pair) const {
 
 std::vector<Pair> CollisionDetector::State::close_pairs() const {
   const int count = static_cast<int>(surfaces.size());
-  std::vector<int> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return std::make_pair(surfaces[a].box().min[0], a) <
-           std::make_pair(surfaces[b].box().min[0], b);
-  });
+  std::vector<BoundingBox> boxes;
+  for (const SweptSurface& surface : surfaces) boxes.push_back(surface.box());
   std::vector<Pair> close;
-  for (int i = 0; i < count; ++i) {
-    const int a = order[i];
+  for (const auto& [a, b] : overlapping_pairs(boxes))
+    if (!(prescribed[a] && prescribed[b]) && is_allowed(a, b)) close.emplace_back(a, b);
+  for (int a = 0; a < count; ++a) {
     if (self_contact[a]) close.emplace_back(a, a);
-    for (int j = i + 1; j < count; ++j) {
-      const int b = order[j];
-      if (surfaces[b].box().min[0] > surfaces[a].box().max[0]) break;
-      if (!(prescribed[a] && prescribed[b]) && overlap(surfaces[a].box(), surfaces[b].box()) &&
-          is_allowed(a, b))
-        close.emplace_back(std::min(a, b), std::max(a, b));
-    }
     for (std::size_t p = 0; p < planes.size(); ++p)
       // without the slack, which remembers where the surface has been
       if (!prescribed[a] && reaches(surfaces[a].swept_box(), planes[p], 0.5 * reach()) &&
@@ -259,6 +247,9 @@ CollisionDetector::CollisionDetector(std::vector<CollisionSurface> surfaces,
     : state_(std::make_unique<State>()) {
   state_->planes = std::move(planes);
   state_->options = std::move(options);
+  auto& ignored = state_->options.ignored_pairs;
+  for (Pair& pair : ignored) pair = Pair(std::minmax(pair.first, pair.second));
+  std::sort(ignored.begin(), ignored.end());
   for (const CollisionSurface& s : surfaces) {
     state_->surfaces.emplace_back(make_topology(s.triangles, s.vertex_count));
     state_->prescribed.push_back(s.prescribed);

@@ -179,14 +179,13 @@ std::vector<CollisionScene::Overlap> CollisionScene::overlaps() {
     if (!solids[s]) solids[s] = std::make_unique<SignedDistance>(triangles(s), start_[s]);
     return *solids[s];
   };
-  for (std::size_t a = 0; a < bodies_.size(); ++a) {
-    for (std::size_t b = a + 1; b < start_.size(); ++b) {
-      if (!overlap(boxes[a], boxes[b]) ||
-          !detector_.is_allowed(static_cast<int>(a), static_cast<int>(b)))
-        continue;
-      const double depth = surface_overlap(solid(a), solid(b), scene_.contact.tolerance);
-      if (depth > 0) out.push_back({bodies_[a].name(), name(b), depth});
-    }
+  const auto body_count = static_cast<int>(bodies_.size());
+  for (const auto& [a, b] : overlapping_pairs(boxes)) {
+    if (a >= body_count || !detector_.is_allowed(a, b)) continue;
+    const double depth = surface_overlap(solid(a), solid(b), scene_.contact.tolerance);
+    if (depth > 0) out.push_back({bodies_[a].name(), name(b), depth});
+  }
+  for (std::size_t a = 0; a < bodies_.size(); ++a)
     for (const ObstacleSpec& o : scene_.obstacles) {
       const auto* plane = std::get_if<PlaneObstacle>(&o.shape);
       if (!plane) continue;
@@ -194,7 +193,6 @@ std::vector<CollisionScene::Overlap> CollisionScene::overlaps() {
           deepest_penetration(start_[a], CollisionPlane{plane->point, plane->normal}).depth;
       if (depth > scene_.contact.tolerance) out.push_back({bodies_[a].name(), o.name, depth});
     }
-  }
   return out;
 }
 

@@ -46,9 +46,9 @@ class FrameWriter {
   FrameWriter& operator=(const FrameWriter&) = delete;
 
   /// Writes one frame, the next one by its index. When the call returns the frame is in the hands
-  /// of the operating system: a process that dies later does not take it along. Throws
-  /// ErrorCode::resources if it cannot be written, ErrorCode::internal if it does not fit the
-  /// bodies.
+  /// of the operating system, unless the writer says that it waits for others: a process that dies
+  /// later does not take it along. Throws ErrorCode::resources if it cannot be written,
+  /// ErrorCode::internal if it does not fit the bodies.
   virtual void write(const Frame& frame) = 0;
 
   /// Waits until all frames so far are on the disk: what a checkpoint that counts on them calls

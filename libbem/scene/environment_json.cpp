@@ -25,20 +25,19 @@ Vec3 read_scale(const JsonValue& value) {
   return scale;
 }
 
-std::size_t body_named(const JsonValue& value, const std::vector<BodySpec>& bodies) {
+std::size_t body_named(const JsonValue& value, const BodyNames& bodies) {
   const std::string name = value.text();
+  const auto match = bodies.find(name);
+  if (match != bodies.end()) return match->second;
   std::vector<std::string> names;
   names.reserve(bodies.size());
-  for (const BodySpec& body : bodies) names.push_back(body.name);
-  const auto match = std::find(names.begin(), names.end(), name);
-  if (match != names.end()) return static_cast<std::size_t>(match - names.begin());
+  for (const auto& [known, index] : bodies) names.push_back(known);
   const std::string nearest = nearest_name(name, names);
   throw value.error("expected the name of a body of this scene, found " + in_quotes(name) +
                     (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?"));
 }
 
-JointEnd read_joint_end(const JsonValue& value, JointType type,
-                        const std::vector<BodySpec>& bodies) {
+JointEnd read_joint_end(const JsonValue& value, JointType type, const BodyNames& bodies) {
   JsonReader reader(value, "a side of a joint");
   JointEnd end;
   end.location = value.location();
@@ -90,7 +89,7 @@ ObstacleSpec read_obstacle(const JsonValue& value) {
   return obstacle;
 }
 
-JointSpec read_joint(const JsonValue& value, const std::vector<BodySpec>& bodies) {
+JointSpec read_joint(const JsonValue& value, const BodyNames& bodies) {
   JsonReader reader(value, "a joint");
   JointSpec joint;
   joint.location = value.location();

@@ -24,10 +24,6 @@ Json vector_json(const Vec3& v) {
   return {v[0], v[1], v[2]};
 }
 
-bool overlap(const BoundingBox& a, const BoundingBox& b) {
-  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
-}
-
 /// Kinetic energy per mass [J/kg] of a body whose velocities are linear in space: the best such
 /// field through those of its vertices.
 double kinetic_energy(const TriangleMesh& body, const std::vector<Vec3>& velocities) {
