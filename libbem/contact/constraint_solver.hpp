@@ -27,7 +27,8 @@ struct ConstraintStatistics {
 
   bool converged() const { return joints_met && contacts_met && contacts_complete; }
   void visit_state(StateArchive& state) {
-    state(contacts, iterations, sweeps, newton_steps, joints_met, contacts_met, contacts_complete);
+    state(contacts, iterations, sweeps, newton_steps, joints_met, contacts_met, contacts_complete,
+          infeasible, exhausted);
     state.any_numbers(joint_residual, contact_error, contact_residual, complementarity,
                       penetration);
   }

@@ -62,7 +62,10 @@ class DeformationWatch {
 
   void visit_state(StateArchive& state) {
     state(least_volume_, most_volume_, least_area_, most_area_, rotation_, turned_, stretched_,
-          inverted_share_, beyond_since_, inside_out_, was_inside_out_, normals_, inverted_);
+          inverted_share_, inside_out_, was_inside_out_);
+    state.any_numbers(beyond_since_);
+    state.resizable(normals_, inverted_);  // empty before the first state
+    state.check(normals_.cols() == static_cast<Eigen::Index>(inverted_.size()));
   }
 
  private:

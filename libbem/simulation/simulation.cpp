@@ -354,7 +354,8 @@ void Simulation::end_step() {
 
 /// Contacts are found anew in every step, but for broken ones.
 void Simulation::visit_state(StateArchive& state) {
-  state(steps_, statistics_, momentum_, times_, broken_);
+  state(steps_, statistics_, momentum_, times_);
+  state.resizable(broken_);
   for (Body& body : bodies_) {
     state(body);
     state.check(body.frame().step() == steps_);

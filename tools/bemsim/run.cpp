@@ -120,7 +120,8 @@ class Run {
   }
 
   void restore(StateReader& earlier) {
-    earlier(kept_, statistics_, timer_, *simulation_);
+    earlier.resizable(kept_);
+    earlier(statistics_, timer_, *simulation_);
     earlier.finish();
     earlier.check(simulation_->steps() == saved_ && saved_ >= 0 &&
                   statistics_.frames() == plan_.schedule.count(saved_));
