@@ -271,10 +271,6 @@ std::vector<std::string> Archive::matrix_paths() const {
   return paths;
 }
 
-bool Archive::has_centrifugal() const {
-  return file_.exists(initial_path(kCentrifugal, 0));
-}
-
 BodyModel Archive::load_motion_matrices(const Progress& progress) const {
   return load(false, progress);
 }

@@ -53,7 +53,7 @@ class Reader {
     for (std::size_t s = 0; s < slab_table_.size(); s += 3) {
       const std::int32_t begin = slab_table_[s], end = slab_table_[s + 1];
       const std::int32_t blocks = slab_table_[s + 2];
-      check(begin == row && end > begin && blocks >= 0 &&
+      check(begin == row && end > begin && end <= static_cast<std::int32_t>(size_) && blocks >= 0 &&
                 block + static_cast<std::size_t>(blocks) <= block_count(),
             "slabs");
       slabs.push_back(

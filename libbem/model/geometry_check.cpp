@@ -9,11 +9,15 @@ namespace bem {
 namespace {
 
 constexpr double kTolerance = 1e-6;  // of what is computed again, relative
+constexpr double kRounding = 1e-12;  // of coordinates, with room for what thin bodies make of it
 
 class GeometryCheck {
  public:
   GeometryCheck(const BodyGeometry& geometry, double density, const std::string& source)
-      : g_(geometry), density_(density), source_(source) {}
+      : g_(geometry),
+        density_(density),
+        tolerance_(kTolerance + kRounding * geometry.mass.centre.norm() / geometry.extent),
+        source_(source) {}
 
   void run() const {
     check_elements(g_.input, source_);
@@ -75,8 +79,8 @@ class GeometryCheck {
     return {g_.node_of_vertex[t[0]], g_.node_of_vertex[t[1]], g_.node_of_vertex[t[2]]};
   }
 
-  static bool close(double a, double b, double scale) {
-    return std::abs(a - b) <= kTolerance * scale;
+  bool close(double a, double b, double scale) const {
+    return std::abs(a - b) <= tolerance_ * scale;
   }
 
   void check_masses() const {
@@ -85,13 +89,13 @@ class GeometryCheck {
     require_that(close(g_.mass.volume, m.volume, m.volume) && close(g_.mass.mass, m.mass, m.mass) &&
                      close(g_.extent, extent, extent),
                  "has a volume, mass or extent that is not that of its mesh");
-    require_that(m.centre.norm() <= kTolerance * extent &&
-                     (m.inertia - g_.mass.inertia).norm() <= kTolerance * m.inertia.norm(),
+    require_that(m.centre.norm() <= tolerance_ * extent &&
+                     (m.inertia - g_.mass.inertia).norm() <= tolerance_ * m.inertia.norm(),
                  "has a centre of mass or an inertia that is not that of its mesh");
   }
 
   const BodyGeometry& g_;
-  double density_;
+  double density_, tolerance_;
   const std::string& source_;
 };
 

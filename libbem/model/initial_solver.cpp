@@ -75,7 +75,10 @@ class BlockDiagonal {
       std::iota(indices.begin(), indices.end(), 3 * ranges_[i].begin);
       const DenseMatrix<T> block = Working<T>::block(h, indices);
       inverses_[i] = block.partialPivLu().inverse().template cast<Stored>();
-      require(inverses_[i].allFinite(), "the diagonal blocks of H_0 can be inverted");
+      if (!inverses_[i].allFinite())
+        throw Error(ErrorCode::numerical,
+                    "the diagonal blocks of H_0 cannot be inverted: the matrices are of no body, "
+                    "make the archive again with bemprecomp");
     }
   }
 

@@ -29,7 +29,10 @@ RigidProjection::RigidProjection(Eigen::MatrixXd rigid, std::vector<Eigen::Matri
   for (const Eigen::MatrixXcd& b : response_) {
     const Eigen::Matrix<Complex, 6, 6> m = rigid_ * b;
     inverse_.push_back(m.inverse());
-    require(inverse_.back().allFinite(), "the body-force columns move the body");
+    if (!inverse_.back().allFinite())
+      throw Error(ErrorCode::numerical,
+                  "forces do not move the body: the matrices are of no body, make the archive "
+                  "again with bemprecomp");
   }
 }
 

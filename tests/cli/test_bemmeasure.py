@@ -5,6 +5,9 @@ import os
 import subprocess
 import unittest
 
+import h5py
+import numpy as np
+
 from cli_case import CliCase
 
 
@@ -51,6 +54,30 @@ class Measure(CliCase):
         self.assertEqual(found["worst_pair"], "a - b")
         self.assertAlmostEqual(found["worst_penetration"], 0.05, delta=0.01)
         self.assertEqual(found["penetration"]["a - itself"]["depth"], 0)
+
+    def test_trajectories_that_were_made_to_do_harm(self):
+        """Exit code 4 and the place, whatever is wrong with them."""
+        self.simulate()
+        good, positions = (self.folder / "out" / "trajectory.h5").read_bytes(), "bodies/ball/positions"
+
+        def remade(file, name, **how):
+            del file[name]
+            file.create_dataset(name, **how)
+        for place, change in [
+                ("/time", lambda f: f["time"].__setitem__(3, 1)),
+                (positions, lambda f: f[positions].__setitem__((0, 0, 0), np.nan)),
+                (positions, lambda f: f[positions].resize(10**9, 0)),
+                (positions, lambda f: f[positions].resize(5, 0)),
+                (positions, lambda f: remade(f, positions, data=f[positions][...], chunks=True, compression="gzip")),
+                (positions, lambda f: f.move(positions, "other") or f.__setitem__(positions, h5py.SoftLink("/other"))),
+                ("faces", lambda f: f["bodies/ball/faces"].__setitem__((0, 0), 42)),
+                ("faces", lambda f: remade(f, "bodies/ball/faces", shape=(10**10, 3), dtype="i4", chunks=(1000, 3))),
+                ("closed", lambda f: f["bodies/ball/faces"].__setitem__(0, [0, 1, 41]))]:
+            (self.folder / "out" / "trajectory.h5").write_bytes(good)
+            with h5py.File(self.folder / "out" / "trajectory.h5", "r+") as file:
+                change(file)
+            with self.subTest(place=place):
+                self.assert_error(self.measure(code=4), "trajectory.h5", *([place] if place != "closed" else []))
 
     def test_a_file_that_is_no_trajectory(self):
         self.simulate()
