@@ -91,7 +91,7 @@ class SphereSource : public bem::ModelSource {
   bem::TractionData tractions(const bem::FilePath&, const std::vector<int>& nodes) override {
     return bem::extract_tractions(*model_, nodes);
   }
-  bem::TriangleMesh obstacle(const bem::FilePath&) override { return {}; }
+  const bem::ObstacleSurface& obstacle(const bem::MeshObstacle&) override { return none_; }
   const bem::BodyModel& model() const { return *model_; }
 
  private:
@@ -100,6 +100,7 @@ class SphereSource : public bem::ModelSource {
     return all;
   }
   std::shared_ptr<const bem::BodyModel> model_;
+  bem::ObstacleSurface none_;
 };
 
 /// A free sphere that a short pressure has set in motion; no load acts while it is stepped.

@@ -309,6 +309,7 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
   check_archive_target(path, force, bytes);
   PendingFile pending(path);
   Hdf5CreateOptions options;
+  options.name = path;
   options.user_block = kUserBlock;
   Hdf5File file = Hdf5File::create(pending.temporary_path(), options);
   file.set_attribute("/", "format", "bem matrix archive");
@@ -331,9 +332,9 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
   }
   file.close();
   if (progress) progress("digest", 0);
-  seal_archive(pending.temporary_path());
+  seal_archive(pending.temporary_path(), path);
   if (progress) progress("saving to disk", 0);
-  pending.commit();
+  pending.commit(force ? ExistingFile::replace : ExistingFile::keep);
 }
 
 }  // namespace bem

@@ -17,8 +17,9 @@ double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& opti
 
 /// Writes an archive (docs/archive-format.md): under a temporary name beside `path`, which gets its
 /// own name when everything is on the disk. Whatever fails or is thrown by `progress` leaves
-/// neither of the two behind. The bytes depend on the arguments alone. All matrices of the model
-/// must be in memory, uncompressed. Throws as check_archive_target.
+/// neither of the two behind, and a file that has the name already as it was; without `force` so
+/// does one that has come in the meantime. The bytes depend on the arguments alone. All matrices of
+/// the model must be in memory, uncompressed. Throws as check_archive_target.
 void write_archive(const std::string& path, const BodyModel& model, const Provenance& provenance,
                    bool force, const Progress& progress = nullptr);
 

@@ -1,13 +1,13 @@
 #include "archive/digest.hpp"
 
 #include "base/error.hpp"
+#include "base/file_io.hpp"
 #include "base/parallel.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <vector>
 
-#include <unistd.h>
 #include <xxhash.h>
 
 namespace bem {
@@ -28,13 +28,9 @@ struct Hasher {
 
 void read_exactly(int file, char* out, std::uint64_t size, std::uint64_t offset,
                   const std::string& path) {
-  while (size > 0) {
-    const ssize_t n = ::pread(file, out, size, static_cast<off_t>(offset));
-    if (n <= 0) throw Error(ErrorCode::archive, path + ": the archive cannot be read to its end");
-    out += n;
-    size -= static_cast<std::uint64_t>(n);
-    offset += static_cast<std::uint64_t>(n);
-  }
+  std::size_t got = 0;
+  check_io(read_fully(file, out, size, offset, got), path, "cannot be read");
+  if (got < size) throw Error(ErrorCode::archive, path + ": the archive cannot be read to its end");
 }
 
 }  // namespace

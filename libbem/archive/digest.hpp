@@ -12,7 +12,7 @@ inline constexpr std::uint64_t kDigestBlock = std::uint64_t(8) << 20;
 /// the digest of the digests (16 bytes each, in canonical order) of all blocks of kDigestBlock
 /// bytes, the last of which may be shorter. Blocks are hashed in parallel and read in small pieces,
 /// so that neither the file nor a block is ever in memory. Throws ErrorCode::archive naming `path`
-/// if the bytes cannot be read.
+/// if there are fewer bytes, ErrorCode::resources if they cannot be read.
 std::string tree_digest(int file, std::uint64_t first, std::uint64_t length,
                         const std::string& path);
 

@@ -16,8 +16,11 @@ void check_hdf5_file(const std::string& path, Hdf5Storage storage, ErrorCode cod
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
   if (unknown) throw Error(code, path + ": cannot be read (" + unknown.message() + ")");
-  const IsolatedResult result = run_isolated([&] { return hdf5_structure_fault(path, storage); },
-                                             kSeconds + static_cast<int>(bytes / kBytesPerSecond));
+  IsolatedLimits limits;
+  limits.cpu_seconds = kSeconds + static_cast<int>(bytes / kBytesPerSecond);
+  limits.wall_seconds = 10 * limits.cpu_seconds;
+  const IsolatedResult result =
+      run_isolated([&] { return hdf5_structure_fault(path, storage); }, limits);
   const std::string& fault = result.finished ? result.output : result.failure;
   if (!result.finished || !fault.empty())
     throw Error(code, path + ": its structure is damaged, or not one of this program: " + fault);

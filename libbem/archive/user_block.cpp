@@ -2,7 +2,7 @@
 
 #include "archive/digest.hpp"
 #include "base/error.hpp"
-#include "base/file_descriptor.hpp"
+#include "base/file_io.hpp"
 
 #include <cerrno>
 #include <charconv>
@@ -48,15 +48,10 @@ FileDescriptor open_archive(const std::string& path, std::uint64_t& size) {
   return file;
 }
 
-std::string read_user_block(const FileDescriptor& file) {
+std::string read_user_block(const FileDescriptor& file, const std::string& path) {
   std::string bytes(kUserBlock, '\0');
   std::size_t have = 0;
-  while (have < bytes.size()) {
-    const ssize_t n =
-        ::pread(file.get(), &bytes[have], bytes.size() - have, static_cast<off_t>(have));
-    if (n <= 0) break;
-    have += static_cast<std::size_t>(n);
-  }
+  check_io(read_fully(file.get(), bytes.data(), bytes.size(), 0, have), path, "cannot be read");
   bytes.resize(have);
   return bytes;
 }
@@ -109,23 +104,22 @@ std::string user_block_bytes(const UserBlock& block) {
   return bytes;
 }
 
-void seal_archive(const std::string& path) {
-  const FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+void seal_archive(const std::string& path, const std::string& name) {
+  FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
   struct stat status {};
-  if (!file || ::fstat(file.get(), &status) != 0)
-    throw Error(ErrorCode::resources, path + ": cannot be opened (" + std::strerror(errno) + ")");
+  check_io(file && ::fstat(file.get(), &status) == 0 ? 0 : errno, name);
   UserBlock block;
   block.payload = static_cast<std::uint64_t>(status.st_size) - kUserBlock;
-  block.digest = tree_digest(file.get(), kUserBlock, block.payload, path);
+  block.digest = tree_digest(file.get(), kUserBlock, block.payload, name);
   const std::string bytes = user_block_bytes(block);
-  if (::pwrite(file.get(), bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw Error(ErrorCode::resources, path + ": cannot be written (" + std::strerror(errno) + ")");
+  check_io(write_fully(file.get(), bytes.data(), bytes.size(), 0), name);
+  check_io(close_file(file), name);
 }
 
 UserBlock verify_digest(const std::string& path) {
   std::uint64_t size = 0;
   const FileDescriptor file = open_archive(path, size);
-  const UserBlock block = parse_user_block(path, read_user_block(file));
+  const UserBlock block = parse_user_block(path, read_user_block(file, path));
   if (size != kUserBlock + block.payload)
     damaged(path, "it has " + std::to_string(size) + " bytes, but was written with " +
                       std::to_string(kUserBlock + block.payload));

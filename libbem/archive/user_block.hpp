@@ -21,9 +21,9 @@ struct UserBlock {
 /// Exactly kUserBlock bytes.
 std::string user_block_bytes(const UserBlock& block);
 
-/// Computes the digest of a complete HDF5 file and writes its user block. Throws
-/// ErrorCode::resources.
-void seal_archive(const std::string& path);
+/// Computes the digest of a complete HDF5 file, of which every write is known to have succeeded,
+/// and writes its user block. Messages call the file by its `name`. Throws ErrorCode::resources.
+void seal_archive(const std::string& path, const std::string& name);
 
 /// Checks an archive before the HDF5 library sees it, which can crash on damaged files. Reads the
 /// whole file once. Throws ErrorCode::archive if the file is missing, foreign, of a newer format

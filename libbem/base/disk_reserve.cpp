@@ -1,10 +1,9 @@
 #include "base/disk_reserve.hpp"
 
-#include "base/error.hpp"
+#include "base/file_io.hpp"
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -30,15 +29,17 @@ int reserve(const FileDescriptor& file, std::uint64_t from, std::uint64_t bytes)
   if (::fallocate(file.get(), FALLOC_FL_KEEP_SIZE, static_cast<off_t>(from),
                   static_cast<off_t>(bytes)) == 0)
     return 0;
+  if (errno == EINTR) return reserve(file, from, bytes);
   return errno == ENOSPC || errno == EDQUOT || errno == EFBIG ? errno : 0;
 }
 
 }  // namespace
 
-DiskReserve::DiskReserve(const std::string& path)
-    : path_(path), file_(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
-  if (!file_)
-    throw Error(ErrorCode::resources, path + ": cannot be written (" + std::strerror(errno) + ")");
+DiskReserve::DiskReserve(const std::string& path) : DiskReserve(path, path) {}
+
+DiskReserve::DiskReserve(const std::string& path, std::string name)
+    : path_(std::move(name)), file_(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW)) {
+  check_io(file_ ? 0 : errno, path_);
 }
 
 void DiskReserve::ensure(std::uint64_t bytes) {
@@ -50,8 +51,7 @@ void DiskReserve::ensure(std::uint64_t bytes) {
     end_ = size + ahead;
     return;
   }
-  if (const int cause = reserve(file_, size, bytes))
-    throw Error(ErrorCode::resources, path_ + ": cannot grow (" + std::strerror(cause) + ")");
+  check_io(reserve(file_, size, bytes), path_, "cannot grow");
   end_ = size + bytes;
 }
 

@@ -13,6 +13,8 @@ namespace bem {
 class DiskReserve {
  public:
   explicit DiskReserve(const std::string& path);  ///< of an existing file
+  /// Messages call the file by another name.
+  DiskReserve(const std::string& path, std::string name);
   ~DiskReserve() { release(); }
   DiskReserve(DiskReserve&&) noexcept = default;
 

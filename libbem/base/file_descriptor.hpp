@@ -21,6 +21,8 @@ class FileDescriptor {
   }
 
   int get() const { return id_; }
+  /// Gives the file away.
+  int release() { return std::exchange(id_, -1); }
   explicit operator bool() const { return id_ >= 0; }
 
  private:

@@ -1,7 +1,9 @@
 #include "base/hdf5.hpp"
 
+#include "base/hdf5_driver.hpp"
 #include "base/hdf5_handle.hpp"
 
+#include <cstring>
 #include <filesystem>
 
 namespace bem {
@@ -9,25 +11,44 @@ namespace {
 
 static_assert(std::is_same_v<hid_t, std::int64_t>, "the header spells hid_t without hdf5.h");
 
-[[noreturn]] void fail_at_file(const std::string& path, ErrorCode error, const std::string& what) {
-  const std::string cause = hdf5_cause();
-  throw Error(error, path + ": " + what + (cause.empty() ? "" : " (" + cause + ")"));
+/// Of the system, if it failed, or else of the library.
+[[noreturn]] void fail_at_file(const std::string& path, ErrorCode error, const std::string& what,
+                               const Hdf5Io& io) {
+  const std::string cause = io.error() != 0 ? std::strerror(io.error()) : hdf5_cause();
+  throw Error(io.error() != 0 ? ErrorCode::resources : error,
+              path + ": " + what + (cause.empty() ? "" : " (" + cause + ")"));
 }
 
-Hdf5Handle file_access() {
+Hdf5Handle file_access(Hdf5Io& io, bool locking) {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // Some network file systems have no locks: go on without them.
-  require(H5Pset_file_locking(access.get(), true, true) >= 0, "HDF5 file locking");
+  require(H5Pset_file_locking(access.get(), locking, true) >= 0, "HDF5 file locking");
+  use_driver(access.get(), io);
   return access;
 }
 
 /// Access for a new file. The format version is fixed, so that the bytes do not depend on what a
-/// later library thinks best: 1.8's is read by everything; SWMR needs 1.10's.
-Hdf5Handle new_file_access(bool swmr) {
-  Hdf5Handle access = file_access();
+/// later library thinks best: 1.8's is read by everything; SWMR needs 1.10's. Nobody else opens it
+/// before it is complete or grows in SWMR mode, so it needs no lock.
+Hdf5Handle new_file_access(Hdf5Io& io, bool swmr) {
+  Hdf5Handle access = file_access(io, false);
   const H5F_libver_t version = swmr ? H5F_LIBVER_V110 : H5F_LIBVER_V18;
   require(H5Pset_libver_bounds(access.get(), version, version) >= 0, "HDF5 format version");
+  // A flush gives back what is reserved for small objects to come: without such reserves the bytes
+  // of a file that grows do not depend on when it is flushed.
+  if (swmr)
+    require(H5Pset_meta_block_size(access.get(), 0) >= 0 &&
+                H5Pset_small_data_block_size(access.get(), 0) >= 0,
+            "HDF5 files without reserves");
   return access;
+}
+
+/// Takes the mark of a growing file off one that was given up, as HDF5's h5clear does.
+void clear_growing_mark(const std::string& path) {
+  Hdf5Io io;
+  const Hdf5Handle access = file_access(io, false);
+  const hbool_t clear = true;
+  H5Pset(access.get(), "clear_status_flags", &clear);
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
 }
 
 /// The groups above: "/a" and "/a/b" for "/a/b/c".
@@ -42,13 +63,15 @@ std::vector<std::string> parents(const std::string& path) {
 
 Hdf5File Hdf5File::create(const std::string& path, const Hdf5CreateOptions& options) {
   silence_hdf5();
-  const Hdf5Handle access = new_file_access(options.swmr);
+  auto io = std::make_unique<Hdf5Io>(options.swmr);
+  const std::string& name = options.name.empty() ? path : options.name;
+  const Hdf5Handle access = new_file_access(*io, options.swmr);
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   require(H5Pset_userblock(creation.get(), options.user_block) >= 0, "size of an HDF5 user block");
   require(H5Pset_obj_track_times(creation.get(), false) >= 0, "HDF5 files without time stamps");
   const Id id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
-  if (id < 0) fail_at_file(path, options.error, "cannot be created");
-  return Hdf5File(path, options.error, id);
+  if (id < 0) fail_at_file(name, options.error, "cannot be created", *io);
+  return Hdf5File(name, options.error, id, std::move(io));
 }
 
 Hdf5File Hdf5File::open(const std::string& path, ErrorCode error) {
@@ -66,29 +89,37 @@ Hdf5File Hdf5File::open(const std::string& path, ErrorCode error, unsigned mode)
   if (!std::filesystem::exists(status)) throw Error(error, path + ": no such file");
   if (std::filesystem::is_directory(status))
     throw Error(error, path + ": is a directory, not an HDF5 file");
+  auto io = std::make_unique<Hdf5Io>();
   const htri_t recognised = H5Fis_hdf5(path.c_str());
   if (recognised == 0) throw Error(error, path + ": is not an HDF5 file");
-  if (recognised < 0) fail_at_file(path, error, "cannot be opened");
-  const Hdf5Handle access = file_access();
+  if (recognised < 0) fail_at_file(path, error, "cannot be opened", *io);
+  const Hdf5Handle access = file_access(*io, true);
   const Id id = H5Fopen(path.c_str(), mode, access.get());
-  if (id < 0) fail_at_file(path, error, "cannot be opened as an HDF5 file");
-  return Hdf5File(path, error, id);
+  if (id < 0) fail_at_file(path, error, "cannot be opened as an HDF5 file", *io);
+  return Hdf5File(path, error, id, std::move(io));
 }
 
+Hdf5File::Hdf5File(std::string path, ErrorCode error, Id id, std::unique_ptr<Hdf5Io> io)
+    : path_(std::move(path)), error_(error), id_(id), io_(std::move(io)) {}
+
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
-    : path_(std::move(other.path_)), error_(other.error_), id_(std::exchange(other.id_, -1)) {}
+    : path_(std::move(other.path_)),
+      error_(other.error_),
+      id_(std::exchange(other.id_, -1)),
+      io_(std::move(other.io_)) {}
 
 Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
   std::swap(path_, other.path_);
   std::swap(error_, other.error_);
   std::swap(id_, other.id_);
+  std::swap(io_, other.io_);
   return *this;
 }
 
 Hdf5File::~Hdf5File() {
   if (id_ < 0) return;
   silence_hdf5();
-  H5Fclose(id_);
+  close_library();
 }
 
 Hdf5File::Id Hdf5File::id() const {
@@ -102,21 +133,42 @@ void Hdf5File::fail(const std::string& object, const std::string& cause) const {
 }
 
 void Hdf5File::fail_in_library(const std::string& object, const std::string& action) const {
-  fail_at_file(path_, error_, object + ": " + action);
+  fail_at_file(path_, error_, object + ": " + action, *io_);
+}
+
+void Hdf5File::check_written() const {
+  if (io_->error() != 0) fail_at_file(path_, error_, "cannot be written", *io_);
 }
 
 void Hdf5File::flush() {
-  if (H5Fflush(id(), H5F_SCOPE_GLOBAL) < 0) fail_at_file(path_, error_, "cannot be written");
+  if (H5Fflush(id(), H5F_SCOPE_GLOBAL) < 0) fail_at_file(path_, error_, "cannot be written", *io_);
+  check_written();
+  io_->mark();
+}
+
+void Hdf5File::sync() {
+  flush();
+  if (io_->sync() != 0) check_written();
+}
+
+bool Hdf5File::close_library() {
+  const bool closed = H5Fclose(std::exchange(id_, -1)) >= 0;
+  if (!closed)
+    static_cast<void>(io_.release());  // the library may still have it
+  else if (io_->error() != 0 && io_->is_at(path_))
+    clear_growing_mark(path_);
+  return closed;
 }
 
 void Hdf5File::close() {
   flush();
-  if (H5Fclose(std::exchange(id_, -1)) < 0) fail_at_file(path_, error_, "cannot be closed");
+  if (!close_library()) throw Error(error_, path_ + ": cannot be closed");
+  check_written();
 }
 
 void Hdf5File::start_swmr() {
   if (H5Fstart_swmr_write(id()) < 0)
-    fail_at_file(path_, error_, "cannot be shared with readers while it is written");
+    fail_at_file(path_, error_, "cannot be shared with readers while it is written", *io_);
 }
 
 bool Hdf5File::exists(const std::string& path) const {

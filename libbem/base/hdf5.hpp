@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -12,17 +13,21 @@
 
 namespace bem {
 
+class Hdf5Io;
+
 /// An HDF5 file and everything in it, by path: "/a/b", where "/" is the file's root group.
 ///
 /// Files are bit-identical when the same calls with the same data are made again: no time stamps,
 /// fixed format version, storage in the order of creation. Text is UTF-8.
 ///
-/// Every failure throws Error with the file's code and a message that names file and object; the
-/// HDF5 library itself prints nothing. Calls that cannot be right whatever the file holds (a closed
-/// file, no extents) throw ErrorCode::internal. Not thread safe, not even for two different files.
+/// Every failure throws Error with the file's code (ErrorCode::resources if the system failed) and
+/// a message that names file and object; the HDF5 library itself prints nothing. No failed write is
+/// forgotten: when flush() or close() return, everything is in the file. Calls that cannot be right
+/// whatever the file holds (a closed file, no extents) throw ErrorCode::internal. Not thread safe,
+/// not even for two different files.
 class Hdf5File {
  public:
-  /// Creates the file, overwriting an existing one. The user block is zeros.
+  /// Creates the file, overwriting an existing one, through no link. The user block is zeros.
   static Hdf5File create(const std::string& path, const Hdf5CreateOptions& options = {});
   /// Opens read-only. The library can crash on a damaged file: check a digest before, if any.
   static Hdf5File open(const std::string& path, ErrorCode error);
@@ -36,6 +41,7 @@ class Hdf5File {
   const std::string& path() const { return path_; }
   ErrorCode error() const { return error_; }  ///< of everything that fails with the file
   void flush();  ///< hands everything written so far to the operating system
+  void sync();   ///< flushes, and waits until it is on the disk
   void close();  ///< flushes and closes; nothing but destruction may follow
   /// Lets other processes read while this one goes on writing (single writer, multiple readers);
   /// no object can be created from here on.
@@ -128,12 +134,14 @@ class Hdf5File {
   std::int64_t int_attribute(const std::string& object, const std::string& name) const;
 
  private:
+  friend class Hdf5Rows;
   using Id = std::int64_t;  // hid_t
 
-  Hdf5File(std::string path, ErrorCode error, Id id)
-      : path_(std::move(path)), error_(error), id_(id) {}
+  Hdf5File(std::string path, ErrorCode error, Id id, std::unique_ptr<Hdf5Io> io);
   static Hdf5File open(const std::string& path, ErrorCode error, unsigned mode);
   Id id() const;
+  void check_written() const;
+  bool close_library();
   [[noreturn]] void fail(const std::string& object, const std::string& cause) const;
   [[noreturn]] void fail_in_library(const std::string& object, const std::string& action) const;
   void check_size(const std::string& path, std::size_t size, const Hdf5Dims& dims) const;
@@ -152,6 +160,7 @@ class Hdf5File {
   std::string path_;
   ErrorCode error_;
   Id id_;
+  std::unique_ptr<Hdf5Io> io_;
 };
 
 }  // namespace bem

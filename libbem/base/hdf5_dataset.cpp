@@ -220,6 +220,7 @@ void Hdf5File::write_raw(const std::string& path, Hdf5Type type, const Hdf5Dims&
   if (H5Dwrite(t.dataset.get(), memory_type(type), t.memory_space.get(), t.file_space.get(),
                H5P_DEFAULT, data) < 0)
     fail_in_library(path, "cannot be written");
+  check_written();
 }
 
 void Hdf5File::read_raw(const std::string& path, Hdf5Type type, const Hdf5Dims& start,

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -35,9 +36,12 @@ constexpr Hdf5Type hdf5_type() {
 }
 
 struct Hdf5CreateOptions {
+  std::string name = {};                   ///< what messages call the file, if not by its path
   ErrorCode error = ErrorCode::resources;  ///< code of everything that fails with the file
   std::size_t user_block = 0;  ///< bytes in front that HDF5 leaves alone: 0 or a power of 2 >= 512
-  bool swmr = false;           ///< start_swmr() will be called (needs the newer 1.10 format)
+  /// start_swmr() will be called (needs the newer 1.10 format). A failed write then takes the file
+  /// back to what it was after the last flush().
+  bool swmr = false;
 };
 
 struct Hdf5Layout {

@@ -2,6 +2,7 @@
 
 #include "base/types.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <deque>
@@ -128,6 +129,10 @@ class StateArchive {
   void visit(std::deque<T>& values) {
     visit_resizable_container(values);
   }
+  template <class T, std::size_t n>
+  void visit(std::array<T, n>& values) {
+    visit_elements(values);
+  }
   template <class T>
   void visit(std::vector<T>& values) {
     same_count(values.size());
@@ -136,6 +141,11 @@ class StateArchive {
   template <class T>
   void visit_resizable(std::vector<T>& values) {
     visit_resizable_container(values);
+  }
+  template <class T>
+  void visit_resizable(std::vector<std::vector<T>>& values) {
+    values.resize(count(values.size(), 8));
+    for (std::vector<T>& inner : values) visit_resizable(inner);
   }
   template <class Key, class T>
   void visit(std::map<Key, T>& map) {

@@ -28,12 +28,7 @@ std::string canonical(XXH128_hash_t hash) {
 }  // namespace
 
 StateWriter::StateWriter(const std::string& path)
-    : path_(path),
-      pending_(path),
-      file_(std::fopen(pending_.temporary_path().c_str(), "wb"), std::fclose),
-      digest_(XXH3_createState(), free_digest) {
-  if (!file_)
-    throw Error(ErrorCode::resources, path + ": cannot be written (" + std::strerror(errno) + ")");
+    : pending_(path), digest_(XXH3_createState(), free_digest) {
   XXH3_128bits_reset(digest_.get());
   put(kMark.data(), kMark.size());
 }
@@ -41,8 +36,11 @@ StateWriter::StateWriter(const std::string& path)
 StateWriter::~StateWriter() = default;
 
 void StateWriter::put(const void* data, std::size_t size) {
-  if (size > 0 && std::fwrite(data, 1, size, file_.get()) != size)
-    throw Error(ErrorCode::resources, path_ + ": cannot be written (" + std::strerror(errno) + ")");
+  constexpr std::size_t kPiece = 1 << 20;
+  buffer_.append(static_cast<const char*>(data), size);
+  if (buffer_.size() < kPiece) return;
+  pending_.append(buffer_);
+  buffer_.clear();
 }
 
 void StateWriter::bytes(void* data, std::size_t size) {
@@ -51,14 +49,13 @@ void StateWriter::bytes(void* data, std::size_t size) {
 }
 
 void StateWriter::refuse() const {
-  throw Error(ErrorCode::internal, path_ + ": what is saved is not checked");
+  throw Error(ErrorCode::internal, "the state that is saved is not one that is checked");
 }
 
 void StateWriter::commit() {
   const std::string digest = canonical(XXH3_128bits_digest(digest_.get()));
   put(digest.data(), digest.size());
-  if (std::fclose(file_.release()) != 0)
-    throw Error(ErrorCode::resources, path_ + ": cannot be written (" + std::strerror(errno) + ")");
+  pending_.append(buffer_);
   pending_.commit();
 }
 

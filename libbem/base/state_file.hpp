@@ -31,9 +31,8 @@ class StateWriter : public StateArchive {
  private:
   void put(const void* data, std::size_t size);
 
-  std::string path_;
   PendingFile pending_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::string buffer_;  ///< not yet written
   std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> digest_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "algebra/blas.hpp"
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -122,6 +123,7 @@ void BlockLu::choose_order(const std::vector<std::vector<int>>& coupled) {
 
 bool BlockLu::factorise() {
   for (int k : order_) {
+    check_interruption();
     try {
       pivots_[k] = std::make_unique<Pivot>(std::move(block(k, k)));
     } catch (const Error& error) {

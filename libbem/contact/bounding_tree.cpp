@@ -18,11 +18,29 @@ BoundingTree::BoundingTree(const std::vector<Triangle>& triangles,
     centroids[t] =
         (positions[triangles[t][0]] + positions[triangles[t][1]] + positions[triangles[t][2]]) /
         3.0;
-  std::iota(order_.begin(), order_.end(), 0);
-  if (!order_.empty()) build(centroids, 0, static_cast<int>(order_.size()));
+  build(centroids);
   std::vector<BoundingBox> vertex_boxes(positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v) vertex_boxes[v] = {positions[v], positions[v]};
   refit(triangles, vertex_boxes);
+}
+
+BoundingTree::BoundingTree(const std::vector<BoundingBox>& boxes)
+    : order_(boxes.size()), boxes_(boxes.size()) {
+  std::vector<Vec3> centres;
+  centres.reserve(boxes.size());
+  for (const BoundingBox& box : boxes) {
+    const Vec3 centre = box.centre();
+    // boxes without a place overlap nothing, but must not upset the order of the others
+    centres.push_back(centre.allFinite() ? centre : Vec3(Vec3::Zero()));
+  }
+  build(centres);
+  for (std::size_t i = 0; i < order_.size(); ++i) boxes_[i] = boxes[order_[i]];
+  refit_nodes();
+}
+
+void BoundingTree::build(const std::vector<Vec3>& centroids) {
+  std::iota(order_.begin(), order_.end(), 0);
+  if (!order_.empty()) build(centroids, 0, static_cast<int>(order_.size()));
 }
 
 int BoundingTree::build(const std::vector<Vec3>& centroids, int begin, int end) {
@@ -54,6 +72,10 @@ void BoundingTree::refit(const std::vector<Triangle>& triangles,
     extend(boxes_[i], vertex_boxes[t[1]]);
     extend(boxes_[i], vertex_boxes[t[2]]);
   }
+  refit_nodes();
+}
+
+void BoundingTree::refit_nodes() {
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     Node& node = nodes_[i];
     if (node.leaf()) {
@@ -64,6 +86,16 @@ void BoundingTree::refit(const std::vector<Triangle>& triangles,
       extend(node.box, nodes_[node.right].box);
     }
   }
+}
+
+std::vector<std::pair<int, int>> overlapping_pairs(const std::vector<BoundingBox>& boxes) {
+  std::vector<std::pair<int, int>> pairs;
+  if (boxes.empty()) return pairs;
+  const BoundingTree tree(boxes);
+  auto add = [&](int a, int b) { pairs.emplace_back(std::min(a, b), std::max(a, b)); };
+  visit_self_overlaps(tree, 0, add);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 }  // namespace bem

@@ -2,6 +2,7 @@
 
 #include "mesh/triangle_mesh.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace bem {
@@ -16,8 +17,9 @@ inline void extend(BoundingBox& box, const BoundingBox& other) {
   box.max = box.max.cwiseMax(other.max);
 }
 
-/// Binary tree of axis-aligned boxes over the triangles of a mesh, halved by the longest axis of
-/// the centroids. Built once; moving vertices refit the boxes and leave the tree as it is.
+/// Binary tree of axis-aligned boxes over the triangles of a mesh, or over other things that have
+/// boxes, halved by the longest axis of their centres. Built once; moving vertices refit the boxes
+/// and leave the tree as it is.
 class BoundingTree {
  public:
   struct Node {
@@ -30,17 +32,21 @@ class BoundingTree {
 
   /// Boxes are those of the positions. O(n log n).
   BoundingTree(const std::vector<Triangle>& triangles, const std::vector<Vec3>& positions);
+  /// A tree over the boxes themselves. O(n log n).
+  explicit BoundingTree(const std::vector<BoundingBox>& boxes);
 
   /// New boxes from those of the vertices. O(n).
   void refit(const std::vector<Triangle>& triangles, const std::vector<BoundingBox>& vertex_boxes);
 
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// Triangles in the order of the leaves, and their boxes.
+  /// Triangles (or whatever has the boxes) in the order of the leaves, and their boxes.
   const std::vector<int>& order() const { return order_; }
   const std::vector<BoundingBox>& boxes() const { return boxes_; }
 
  private:
+  void build(const std::vector<Vec3>& centroids);
   int build(const std::vector<Vec3>& centroids, int begin, int end);
+  void refit_nodes();
 
   std::vector<Node> nodes_;
   std::vector<int> order_;
@@ -81,5 +87,9 @@ void visit_self_overlaps(const BoundingTree& tree, int p, Visit& visit) {
     visit_overlaps(tree, p + 1, tree, n.right, visit);
   }
 }
+
+/// The pairs of boxes that overlap, first < second, sorted. O((n + pairs) log n), wherever they
+/// are.
+std::vector<std::pair<int, int>> overlapping_pairs(const std::vector<BoundingBox>& boxes);
 
 }  // namespace bem

@@ -1,6 +1,7 @@
 #include "contact/collision_detector.hpp"
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "base/parallel.hpp"
 #include "contact/edge_contacts.hpp"
 #include "contact/mirrored_contacts.hpp"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace bem {
@@ -25,6 +25,7 @@ struct PairState {
   long motion_a = -1, motion_b = -1;           ///< versions that `contacts` are of
   std::vector<std::pair<int, int>> triangles;  ///< whose boxes with slack overlap
   std::vector<Contact> contacts;
+  bool pressed = false;  ///< `contacts` include pressed ones
 };
 
 std::vector<std::pair<int, int>> close_triangles(const SweptSurface& a, const SweptSurface& b) {
@@ -42,12 +43,13 @@ std::vector<std::pair<int, int>> close_triangles(const SweptSurface& a, const Sw
 class FeaturePairs {
  public:
   FeaturePairs(const SweptSurface& a, int index_a, const SweptSurface& b, int index_b,
-               const ContactLimits& limits)
+               const ContactLimits& limits, const std::vector<ContactKey>& pressed)
       : a_(a),
         b_(b),
         moving_a_(a.moving(index_a)),
         moving_b_(b.moving(index_b)),
         limits_(limits),
+        pressed_(pressed),
         self_(&a == &b) {}
 
   std::vector<Contact> contacts(const std::vector<std::pair<int, int>>& triangles) {
@@ -91,7 +93,19 @@ class FeaturePairs {
       const auto& q = a_.topology().edges[f].vertices;
       if (p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1]) return;
     }
-    add_edge_contact(moving_a_, e, moving_b_, f, limits_, contacts_);
+    const ContactKey key{moving_a_.index, moving_b_.index, ContactKind::edge_edge, e, f};
+    const bool pressed = std::binary_search(pressed_.begin(), pressed_.end(), key);
+    add_edge_contact(moving_a_, e, moving_b_, f, pressed, limits_, contacts_);
+  }
+
+  /// The triangle of y that has held the vertex of x, -1 if none has.
+  int pressed_triangle(const MovingSurface& x, int vertex, const MovingSurface& y) const {
+    const ContactKey first{x.index, y.index, ContactKind::vertex_triangle, vertex, 0};
+    const auto it = std::lower_bound(pressed_.begin(), pressed_.end(), first);
+    const bool found = it != pressed_.end() && it->surface_a == x.index &&
+                       it->surface_b == y.index && it->kind == ContactKind::vertex_triangle &&
+                       it->feature_a == vertex;
+    return found ? it->feature_b : -1;
   }
 
   void add_vertices(std::vector<std::pair<int, int>>& pairs, const MovingSurface& x,
@@ -99,12 +113,13 @@ class FeaturePairs {
     std::sort(pairs.begin(), pairs.end());
     std::vector<int> triangles;
     for (std::size_t i = 0; i < pairs.size();) {
+      check_interruption();
       const int vertex = pairs[i].first;
       triangles.clear();
       for (; i < pairs.size() && pairs[i].first == vertex; ++i)
         triangles.push_back(pairs[i].second);
       add_vertex_contacts(x, vertex, y, triangles.data(), triangles.data() + triangles.size(),
-                          limits_, contacts_);
+                          pressed_triangle(x, vertex, y), limits_, contacts_);
     }
   }
 
@@ -112,6 +127,7 @@ class FeaturePairs {
   const SweptSurface& b_;
   MovingSurface moving_a_, moving_b_;
   ContactLimits limits_;
+  const std::vector<ContactKey>& pressed_;
   bool self_;
   std::vector<std::pair<int, int>> vertices_of_a_, vertices_of_b_;  ///< with triangles of the other
   std::vector<Contact> contacts_;
@@ -130,46 +146,47 @@ bool reaches(const BoundingBox& box, const CollisionPlane& plane, double distanc
 struct CollisionDetector::State {
   std::vector<SweptSurface> surfaces;
   std::vector<char> prescribed, self_contact;
+  std::vector<double> recovery_depth;  ///< by surface [m]
   std::vector<CollisionPlane> planes;
-  CollisionOptions options;
+  CollisionOptions options;  ///< ignored pairs with the first < second, sorted
 
   bool is_allowed(int a, int b) const {
     const auto& ignored = options.ignored_pairs;
-    return std::find(ignored.begin(), ignored.end(), Pair(a, b)) == ignored.end() &&
-           std::find(ignored.begin(), ignored.end(), Pair(b, a)) == ignored.end();
+    return !std::binary_search(ignored.begin(), ignored.end(), Pair(std::minmax(a, b)));
   }
 
+  std::vector<ContactKey> pressed;  ///< see detect()
+  double deepest = 0;               ///< of them [m]
+
   /// Distance at which surfaces see each other [m].
-  double reach() const { return std::max(options.margin, options.recovery_depth); }
+  double reach() const { return std::max({options.margin, options.recovery_depth, 1.5 * deepest}); }
+  /// Surfaces with pressed contacts between them.
+  bool is_pressed(const Pair& pair) const;
 
   std::map<Pair, PairState> pairs;  ///< of the last detection
 
-  /// Every pair that may have contacts, first < second, sorted. Sweep along x.
+  /// Every pair that may have contacts, first < second, sorted.
   std::vector<Pair> close_pairs() const;
   /// Takes the pairs, with what is known of them already.
   std::vector<std::pair<const Pair, PairState>*> keep_pairs(const std::vector<Pair>& close);
   void update(const Pair& pair, PairState& known) const;
 };
 
+bool CollisionDetector::State::is_pressed(const Pair& pair) const {
+  return std::any_of(pressed.begin(), pressed.end(), [&](const ContactKey& key) {
+    return std::minmax(key.surface_a, key.surface_b) == std::minmax(pair.first, pair.second);
+  });
+}
+
 std::vector<Pair> CollisionDetector::State::close_pairs() const {
   const int count = static_cast<int>(surfaces.size());
-  std::vector<int> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return std::make_pair(surfaces[a].box().min[0], a) <
-           std::make_pair(surfaces[b].box().min[0], b);
-  });
+  std::vector<BoundingBox> boxes;
+  for (const SweptSurface& surface : surfaces) boxes.push_back(surface.box());
   std::vector<Pair> close;
-  for (int i = 0; i < count; ++i) {
-    const int a = order[i];
+  for (const auto& [a, b] : overlapping_pairs(boxes))
+    if (!(prescribed[a] && prescribed[b]) && is_allowed(a, b)) close.emplace_back(a, b);
+  for (int a = 0; a < count; ++a) {
     if (self_contact[a]) close.emplace_back(a, a);
-    for (int j = i + 1; j < count; ++j) {
-      const int b = order[j];
-      if (surfaces[b].box().min[0] > surfaces[a].box().max[0]) break;
-      if (!(prescribed[a] && prescribed[b]) && overlap(surfaces[a].box(), surfaces[b].box()) &&
-          is_allowed(a, b))
-        close.emplace_back(std::min(a, b), std::max(a, b));
-    }
     for (std::size_t p = 0; p < planes.size(); ++p)
       // without the slack, which remembers where the surface has been
       if (!prescribed[a] && reaches(surfaces[a].swept_box(), planes[p], 0.5 * reach()) &&
@@ -206,8 +223,11 @@ void CollisionDetector::State::update(const Pair& pair, PairState& known) const 
     return;
   }
   const SweptSurface& other = surfaces[b];
-  if (known.motion_a == surface.motion_version() && known.motion_b == other.motion_version())
+  const bool pressed_now = is_pressed(pair);
+  if (known.motion_a == surface.motion_version() && known.motion_b == other.motion_version() &&
+      !pressed_now && !known.pressed)
     return;
+  known.pressed = pressed_now;
   known.motion_a = surface.motion_version();
   known.motion_b = other.motion_version();
   if (known.boxes_a != surface.boxes_version() || known.boxes_b != other.boxes_version()) {
@@ -216,9 +236,10 @@ void CollisionDetector::State::update(const Pair& pair, PairState& known) const 
     known.triangles = close_triangles(surface, other);
   }
   ContactLimits limits = options;
+  limits.recovery_depth = std::min({limits.recovery_depth, recovery_depth[a], recovery_depth[b]});
   // The other side of a thin wall is near, but nothing has come through it.
   if (a == b) limits.recovery_depth = limits.tolerance;
-  known.contacts = FeaturePairs(surface, a, other, b, limits).contacts(known.triangles);
+  known.contacts = FeaturePairs(surface, a, other, b, limits, pressed).contacts(known.triangles);
 }
 
 CollisionDetector::CollisionDetector(std::vector<CollisionSurface> surfaces,
@@ -226,10 +247,14 @@ CollisionDetector::CollisionDetector(std::vector<CollisionSurface> surfaces,
     : state_(std::make_unique<State>()) {
   state_->planes = std::move(planes);
   state_->options = std::move(options);
+  auto& ignored = state_->options.ignored_pairs;
+  for (Pair& pair : ignored) pair = Pair(std::minmax(pair.first, pair.second));
+  std::sort(ignored.begin(), ignored.end());
   for (const CollisionSurface& s : surfaces) {
     state_->surfaces.emplace_back(make_topology(s.triangles, s.vertex_count));
     state_->prescribed.push_back(s.prescribed);
     state_->self_contact.push_back(s.self_contact);
+    state_->recovery_depth.push_back(s.recovery_depth);
   }
 }
 
@@ -237,12 +262,24 @@ CollisionDetector::~CollisionDetector() = default;
 CollisionDetector::CollisionDetector(CollisionDetector&&) noexcept = default;
 CollisionDetector& CollisionDetector::operator=(CollisionDetector&&) noexcept = default;
 
+const Triangle& CollisionDetector::triangle(int surface, int triangle) const {
+  return state_->surfaces[surface].topology().triangles[triangle];
+}
+
+const std::array<int, 2>& CollisionDetector::edge(int surface, int edge) const {
+  return state_->surfaces[surface].topology().edges[edge].vertices;
+}
+
 bool CollisionDetector::is_allowed(int a, int b) const {
   return state_->is_allowed(a, b);
 }
 
-std::vector<Contact> CollisionDetector::detect(const std::vector<SurfaceMotion>& motions) {
+std::vector<Contact> CollisionDetector::detect(const std::vector<SurfaceMotion>& motions,
+                                               const std::vector<ContactKey>& pressed,
+                                               double deepest) {
   State& state = *state_;
+  state.pressed = pressed;
+  state.deepest = deepest;
   require(motions.size() == state.surfaces.size(), "every surface has a motion");
   const double reach = state.reach();
   std::vector<SweptSurface>& surfaces = state.surfaces;

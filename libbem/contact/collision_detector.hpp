@@ -3,6 +3,7 @@
 #include "base/types.hpp"
 #include "contact/contact.hpp"
 
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -10,12 +11,16 @@
 namespace bem {
 
 /// A triangle mesh that can be touched on its outer side, the one its normals point to. Closed or
-/// open; every edge has one or two triangles of consistent orientation.
+/// open; every edge has one or two triangles of consistent orientation. A sheet that holds on both
+/// sides is one surface with two layers (mesh/two_sided.hpp) some distance apart.
 struct CollisionSurface {
   std::vector<Triangle> triangles;
   int vertex_count = 0;
   bool prescribed = false;    ///< an obstacle: no contact with planes and other such surfaces
   bool self_contact = false;  ///< contact of the surface with itself too
+  /// Penetration at the start of a step that is pushed out of this surface at most [m]; of a sheet
+  /// with two layers the distance between them.
+  double recovery_depth = std::numeric_limits<double>::infinity();
 };
 
 /// The half space below a plane that does not move.
@@ -53,7 +58,13 @@ class CollisionDetector {
   /// a pair that is found again keeps its key and has its points and normal where they now are, one
   /// that is not keeps its inequality. The ends are free of penetration when no contact of such a
   /// call has gap_end < 0. O(n) for the boxes plus O(log n) per close pair.
-  std::vector<Contact> detect(const std::vector<SurfaceMotion>& motions);
+  /// `pressed`: keys, ascending, of contacts that held in the step before and whose sides are in
+  /// each other by more than the recovery depth, up to `deepest` [m]; they are found all the same.
+  std::vector<Contact> detect(const std::vector<SurfaceMotion>& motions,
+                              const std::vector<ContactKey>& pressed = {}, double deepest = 0);
+  /// Vertices of a triangle and of an edge of a surface.
+  const Triangle& triangle(int surface, int triangle) const;
+  const std::array<int, 2>& edge(int surface, int edge) const;
   /// May the surfaces (planes follow them) touch each other, or is their pair ignored?
   bool is_allowed(int a, int b) const;
 

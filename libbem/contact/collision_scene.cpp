@@ -1,11 +1,14 @@
 #include "contact/collision_scene.hpp"
 
 #include "contact/bounding_tree.hpp"
+#include "contact/closest_points.hpp"
+#include "contact/moving_surface.hpp"
 #include "contact/penetration.hpp"
-#include "contact/surface_topology.hpp"
+#include "contact/surface_overlap.hpp"
 #include "scene/motion.hpp"
 
 #include <algorithm>
+#include <memory>
 
 namespace bem {
 namespace {
@@ -24,110 +27,172 @@ double combine(FrictionCombine how, double a, double b) {
   return 0;
 }
 
-CollisionDetector make_detector(const Scene& scene, const std::vector<Body>& bodies,
-                                const std::vector<ObstacleMesh>& obstacles,
-                                const std::vector<std::pair<int, int>>& joined_bodies) {
-  std::vector<CollisionSurface> surfaces;
+double smallest_extent(const std::vector<Body>& bodies) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Body& body : bodies) {
-    CollisionSurface s;
-    s.triangles = body.model().geometry.nodes.triangles;
-    s.vertex_count = static_cast<int>(body.model().nodes());
-    s.self_contact = scene.contact.self && !body.is_rigid();
-    smallest = std::min(smallest, body.model().geometry.extent);
-    surfaces.push_back(std::move(s));
-  }
-  for (const ObstacleMesh& o : obstacles) {
-    CollisionSurface s;
-    s.triangles = o.mesh.triangles;
-    s.vertex_count = static_cast<int>(o.mesh.vertices.size());
-    s.prescribed = true;
-    surfaces.push_back(std::move(s));
-  }
-  std::vector<CollisionPlane> planes;
-  for (const ObstacleSpec& o : scene.obstacles)
-    if (const auto* plane = std::get_if<PlaneObstacle>(&o.shape))
-      planes.push_back({plane->point, plane->normal});
-  CollisionOptions options;
-  constexpr double kMargin = 1e-3, kRecoveryDepth = 5e-3;  // of the smallest body
-  options.tolerance = scene.contact.tolerance;
-  options.margin = std::max(kMargin * smallest, 2 * options.tolerance);
-  options.recovery_depth = std::max(kRecoveryDepth * smallest, 2 * options.tolerance);
-  options.ignored_pairs = joined_bodies;
-  return CollisionDetector(std::move(surfaces), std::move(planes), std::move(options));
+  for (const Body& body : bodies) smallest = std::min(smallest, body.model().geometry.extent);
+  return smallest;
+}
+
+/// See ContactLimits [m].
+double recovery_depth(const Scene& scene, double smallest) {
+  constexpr double kRecoveryDepth = 5e-3;  // of the smallest body
+  return std::max(kRecoveryDepth * smallest, 2 * scene.contact.tolerance);
+}
+
+/// Distance of the two layers of a sheet from it [m]: more than what contacts may miss, so that it
+/// is always clear on which side of the sheet a vertex is.
+double sheet_offset(double smallest, double tolerance) {
+  constexpr double kOffset = 5e-5;  // of the smallest body
+  return std::max(kOffset * smallest, 2 * tolerance);
 }
 
 }  // namespace
 
 CollisionScene::CollisionScene(const Scene& scene, const std::vector<Body>& bodies,
-                               std::vector<ObstacleMesh> obstacles,
+                               const std::vector<ObstacleMesh>& obstacles,
                                const std::vector<std::pair<int, int>>& joined_bodies)
     : scene_(scene),
       bodies_(bodies),
-      obstacles_(std::move(obstacles)),
-      detector_(make_detector(scene, bodies, obstacles_, joined_bodies)) {
-  for (const Body& body : bodies) {
-    smallest_ = std::min(smallest_, body.model().geometry.extent);
-    friction_.push_back(body.spec().friction);
-  }
-  for (const ObstacleMesh& o : obstacles_) friction_.push_back(o.spec->friction);
+      smallest_(smallest_extent(bodies)),
+      obstacles_(parts_of(obstacles, sheet_offset(smallest_, scene.contact.tolerance))),
+      detector_(make_detector(joined_bodies)) {
+  for (const Body& body : bodies) friction_.push_back(body.spec().friction);
+  for (const ObstaclePart& o : obstacles_) friction_.push_back(o.spec->friction);
   for (const ObstacleSpec& o : scene.obstacles)
     if (std::holds_alternative<PlaneObstacle>(o.shape)) friction_.push_back(o.friction);
   start_.resize(bodies.size() + obstacles_.size());
   end_.resize(start_.size());
 }
 
-void CollisionScene::begin_step(double t, double dt) {
+std::vector<CollisionScene::ObstaclePart> CollisionScene::parts_of(
+    const std::vector<ObstacleMesh>& obstacles, double sheet_offset) {
+  std::vector<ObstaclePart> parts;
+  for (const ObstacleMesh& o : obstacles) {
+    if (!o.surface.solid.triangles.empty()) parts.push_back({o.spec, o.surface.solid, {}});
+    if (o.surface.sheet_triangles() == 0) continue;
+    TriangleMesh layers = o.surface.sheet.layers;
+    for (std::size_t v = 0; v < layers.vertices.size(); ++v)
+      layers.vertices[v] += sheet_offset * o.surface.sheet.offsets[v];
+    parts.push_back({o.spec, std::move(layers), o.surface.sheet.rim, 2 * sheet_offset});
+  }
+  return parts;
+}
+
+CollisionDetector CollisionScene::make_detector(
+    const std::vector<std::pair<int, int>>& joined_bodies) const {
+  std::vector<CollisionSurface> surfaces;
+  for (const Body& body : bodies_) {
+    CollisionSurface s;
+    s.triangles = body.model().geometry.nodes.triangles;
+    s.vertex_count = static_cast<int>(body.model().nodes());
+    s.self_contact = scene_.contact.self && !body.is_rigid();
+    surfaces.push_back(std::move(s));
+  }
+  for (const ObstaclePart& o : obstacles_) {
+    CollisionSurface s;
+    s.triangles = o.mesh.triangles;
+    s.triangles.insert(s.triangles.end(), o.rim.begin(), o.rim.end());
+    s.vertex_count = static_cast<int>(o.mesh.vertices.size());
+    s.prescribed = true;
+    s.recovery_depth = o.recovery_depth;
+    surfaces.push_back(std::move(s));
+  }
+  std::vector<CollisionPlane> planes;
+  for (const ObstacleSpec& o : scene_.obstacles)
+    if (const auto* plane = std::get_if<PlaneObstacle>(&o.shape))
+      planes.push_back({plane->point, plane->normal});
+  CollisionOptions options;
+  constexpr double kMargin = 1e-3;  // of the smallest body
+  options.tolerance = scene_.contact.tolerance;
+  options.margin = std::max(kMargin * smallest_, 2 * options.tolerance);
+  options.recovery_depth = recovery_depth(scene_, smallest_);
+  options.ignored_pairs = joined_bodies;
+  return CollisionDetector(std::move(surfaces), std::move(planes), std::move(options));
+}
+
+void CollisionScene::begin_step(double t, double dt, const std::vector<ContactKey>& broken) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) start_[b] = bodies_[b].node_positions();
   for (std::size_t o = 0; o < obstacles_.size(); ++o) {
     const auto& shape = std::get<MeshObstacle>(obstacles_[o].spec->shape);
     const std::size_t s = bodies_.size() + o;
-    const auto place = [&](double time, std::vector<Vec3>& out) {
-      const RigidMotion motion = motion_at(shape.motion, time);
-      out.clear();
-      for (const Vec3& x : obstacles_[o].mesh.vertices)
-        out.push_back(motion.apply(shape.position + x));
-    };
     if (shape.motion.empty() && !start_[s].empty()) continue;
-    place(t, start_[s]);
-    place(t + dt, end_[s]);
+    start_[s] = placed_at(shape, obstacles_[o].mesh.vertices, t);
+    end_[s] = placed_at(shape, obstacles_[o].mesh.vertices, t + dt);
   }
+  find_pressed(broken);
 }
 
-std::vector<Triangle> CollisionScene::triangles(std::size_t surface) const {
+void CollisionScene::find_pressed(const std::vector<ContactKey>& broken) {
+  const auto limit_of = [&](int surface) {
+    const int obstacle = surface - static_cast<int>(bodies_.size());
+    const double own = obstacle >= 0 && obstacle < static_cast<int>(obstacles_.size())
+                           ? obstacles_[obstacle].recovery_depth
+                           : std::numeric_limits<double>::infinity();
+    return std::min(own, recovery_depth(scene_, smallest_));
+  };
+  pressed_.clear();
+  deepest_ = 0;
+  for (ContactKey key : broken) {
+    const double d = depth(key);
+    if (d <= std::min(limit_of(key.surface_a), limit_of(key.surface_b))) continue;
+    key.view = 0;
+    pressed_.push_back(key);
+    deepest_ = std::max(deepest_, d);
+  }
+  std::sort(pressed_.begin(), pressed_.end());
+  pressed_.erase(std::unique(pressed_.begin(), pressed_.end()), pressed_.end());
+}
+
+/// How far the sides of a contact are in each other at the start of the step [m]. Planes have no
+/// limit of their own.
+double CollisionScene::depth(const ContactKey& key) const {
+  if (key.kind == ContactKind::vertex_plane) return 0;
+  const std::vector<Vec3>&a = start_[key.surface_a], &b = start_[key.surface_b];
+  if (key.kind == ContactKind::edge_edge) {
+    const auto& e = detector_.edge(key.surface_a, key.feature_a);
+    const auto& f = detector_.edge(key.surface_b, key.feature_b);
+    const LinePair lines = closest_on_lines(a[e[0]], a[e[1]], b[f[0]], b[f[1]]);
+    return (a[e[0]] + lines.s * (a[e[1]] - a[e[0]]) - b[f[0]] - lines.u * (b[f[1]] - b[f[0]]))
+        .norm();
+  }
+  const Triangle& t = detector_.triangle(key.surface_b, key.feature_b);
+  return -unit_normal(b[t[0]], b[t[1]], b[t[2]]).dot(a[key.feature_a] - b[t[0]]);
+}
+
+const std::vector<Triangle>& CollisionScene::triangles(std::size_t surface) const {
   return surface < bodies_.size() ? bodies_[surface].model().geometry.nodes.triangles
                                   : obstacles_[surface - bodies_.size()].mesh.triangles;
+}
+
+const std::string& CollisionScene::name(std::size_t surface) const {
+  return surface < bodies_.size() ? bodies_[surface].name()
+                                  : obstacles_[surface - bodies_.size()].spec->name;
 }
 
 std::vector<CollisionScene::Overlap> CollisionScene::overlaps() {
   begin_step(0, 0);
   std::vector<Overlap> out;
   std::vector<BoundingBox> boxes;
-  for (const std::vector<Vec3>& surface : start_) {
-    boxes.emplace_back();
-    for (const Vec3& x : surface) extend(boxes.back(), {x, x});
+  for (const std::vector<Vec3>& surface : start_) boxes.push_back(bounding_box(surface));
+  std::vector<std::unique_ptr<SignedDistance>> solids(start_.size());
+  const auto solid = [&](std::size_t s) -> const SignedDistance& {
+    if (!solids[s]) solids[s] = std::make_unique<SignedDistance>(triangles(s), start_[s]);
+    return *solids[s];
+  };
+  const auto body_count = static_cast<int>(bodies_.size());
+  for (const auto& [a, b] : overlapping_pairs(boxes)) {
+    if (a >= body_count || !detector_.is_allowed(a, b)) continue;
+    const double depth = surface_overlap(solid(a), solid(b), scene_.contact.tolerance);
+    if (depth > 0) out.push_back({bodies_[a].name(), name(b), depth});
   }
-  const auto depth = [&](std::size_t a, std::size_t b) {
-    if (!overlap(boxes[a], boxes[b])) return 0.0;
-    const SurfaceTopology t = make_topology(triangles(b), static_cast<int>(start_[b].size()));
-    const bool closed = std::all_of(t.edges.begin(), t.edges.end(),
-                                    [](const auto& edge) { return edge.triangles[1] >= 0; });
-    return closed ? deepest_penetration(start_[a], t.triangles, start_[b]).depth : 0.0;
-  };
-  const auto add = [&](std::size_t a, const std::string& b, double by) {
-    if (by > scene_.contact.tolerance) out.push_back({bodies_[a].name(), b, by});
-  };
-  for (std::size_t a = 0; a < bodies_.size(); ++a) {
-    for (std::size_t b = a + 1; b < start_.size(); ++b) {
-      if (!detector_.is_allowed(static_cast<int>(a), static_cast<int>(b))) continue;
-      add(a, b < bodies_.size() ? bodies_[b].name() : obstacles_[b - bodies_.size()].spec->name,
-          std::max(depth(a, b), depth(b, a)));
+  for (std::size_t a = 0; a < bodies_.size(); ++a)
+    for (const ObstacleSpec& o : scene_.obstacles) {
+      const auto* plane = std::get_if<PlaneObstacle>(&o.shape);
+      if (!plane) continue;
+      const double depth =
+          deepest_penetration(start_[a], CollisionPlane{plane->point, plane->normal}).depth;
+      if (depth > scene_.contact.tolerance) out.push_back({bodies_[a].name(), o.name, depth});
     }
-    for (const ObstacleSpec& o : scene_.obstacles)
-      if (const auto* plane = std::get_if<PlaneObstacle>(&o.shape))
-        add(a, o.name,
-            deepest_penetration(start_[a], CollisionPlane{plane->point, plane->normal}).depth);
-  }
   return out;
 }
 
@@ -162,7 +227,8 @@ std::vector<ContactPair> CollisionScene::detect() {
   std::vector<SurfaceMotion> motions;
   for (std::size_t s = 0; s < start_.size(); ++s) motions.push_back({&start_[s], &end_[s]});
   std::vector<ContactPair> pairs;
-  for (const Contact& c : detector_.detect(motions)) pairs.push_back(pair_of(c));
+  for (const Contact& c : detector_.detect(motions, pressed_, deepest_))
+    pairs.push_back(pair_of(c));
   return pairs;
 }
 

@@ -1,5 +1,6 @@
 #include "contact/constraint_solver.hpp"
 
+#include "base/interruption.hpp"
 #include "contact/natural_map.hpp"
 
 #include <algorithm>
@@ -49,6 +50,8 @@ void ConstraintSolver::begin_step(double t, double dt) {
   start_ = t;
   dt_ = dt;
   first_ = true;
+  solves_left_ = kMostStepSolves;
+  sweeps_left_ = kMostStepSweeps;
   for (Mechanism& m : mechanisms_) m.activate(t + dt);
 }
 
@@ -183,6 +186,7 @@ double ConstraintSolver::joint_tolerance(const Mechanism& m) const {
 /// Moves the bodies and looks how far they are from what is asked; without a problem for the units
 /// of the contacts, their error is the penetration alone.
 ConstraintSolver::State ConstraintSolver::evaluate(const ContactProblem* problem) {
+  check_interruption();
   State s;
   s.turn = update();
   for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
@@ -272,9 +276,14 @@ ConstraintSolver::Direction ConstraintSolver::find_direction(ContactProblem& pro
   options.absolute_tolerance = std::max(0.1 * goal, kInexactness * state.contact_residual);
   options.sufficient =
       std::max(3 * options.absolute_tolerance, kSufficient * state.contact_residual);
+  options.max_newton_steps = std::min(options.max_newton_steps, solves_left_);
+  options.max_sweeps = std::min(options.max_sweeps, sweeps_left_);
   Eigen::VectorXd r = start;
   const FrictionResult result = solve_friction(problem.friction(), r, options);
   if (observer_) observer_(problem.friction(), start, result);
+  solves_left_ -= result.newton_steps;
+  sweeps_left_ -= result.sweeps;
+  statistics.infeasible = result.infeasible;
   statistics.sweeps += result.sweeps;
   statistics.newton_steps += result.newton_steps;
   statistics.contact_error = result.error;
@@ -345,7 +354,7 @@ ConstraintStatistics ConstraintSolver::solve_joints() {
 
 ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& contacts,
                                              double goal) {
-  constexpr int kMostIterations = 40, kPatience = 6, kMemory = 3;
+  constexpr int kMostIterations = 40, kPatience = 6, kPatienceInfeasible = 1, kMemory = 3;
   constexpr double kSlow = 0.1, kVerySlow = 0.5, kProgress = 0.9;
   place_contacts(contacts);
   if (contacts.empty()) return solve_joints();
@@ -363,7 +372,9 @@ ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& con
   for (int idle = 0;; ++idle) {
     ++statistics.iterations;
     if (state.joints_met && state.contact_residual <= goal) break;
-    if (statistics.iterations > kMostIterations || idle > kPatience) break;
+    if (statistics.iterations > kMostIterations || is_exhausted() ||
+        idle > (statistics.infeasible ? kPatienceInfeasible : kPatience))
+      break;
     const double residual = state.residual();
     if (residual > kSlow * last && statistics.iterations > 2) {
       // the bodies have turned against each other since the matrices were made
@@ -382,10 +393,13 @@ ConstraintStatistics ConstraintSolver::solve(const std::vector<ContactPair>& con
       best_solution = solution();
     }
   }
-  if (state.residual() > best) {
+  // where nothing can be met, forces that share the penetration out are as good as none
+  constexpr double kAsGood = 1.1;
+  if (state.residual() > (statistics.infeasible ? kAsGood : 1) * best) {
     restore(best_solution);
     state = evaluate(&*problem);
   }
+  statistics.exhausted = is_exhausted();
   statistics.joint_residual = state.joint_residual;
   statistics.joints_met = state.joints_met || state.joint_residual <= options_.contact_tolerance;
   statistics.contact_residual = state.contact_residual;

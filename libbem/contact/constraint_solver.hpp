@@ -22,14 +22,21 @@ struct ConstraintStatistics {
   bool joints_met = true;
   bool contacts_met = true;       ///< contact_residual is within the tolerance
   bool contacts_complete = true;  ///< the motion breaks no contacts but those solved for
+  bool infeasible = false;        ///< no forces keep all contacts apart
+  bool exhausted = false;         ///< the work allowed for a step was not enough
 
   bool converged() const { return joints_met && contacts_met && contacts_complete; }
   void visit_state(StateArchive& state) {
-    state(contacts, iterations, sweeps, newton_steps, joints_met, contacts_met, contacts_complete);
+    state(contacts, iterations, sweeps, newton_steps, joints_met, contacts_met, contacts_complete,
+          infeasible, exhausted);
     state.any_numbers(joint_residual, contact_error, contact_residual, complementarity,
                       penetration);
   }
 };
+
+/// The work of a step is bounded: after these numbers of linear solves and sweeps of the contact
+/// solver the best motion found is taken.
+inline constexpr int kMostStepSolves = 20'000, kMostStepSweeps = 200'000;
 
 struct ConstraintOptions {
   double contact_tolerance = 1e-6;  ///< error of the contacts' displacements [m]
@@ -119,6 +126,7 @@ class ConstraintSolver {
                            ConstraintStatistics& statistics);
   State search(const ContactProblem& problem, const Direction& direction, double reference);
   double joint_tolerance(const Mechanism& m) const;
+  bool is_exhausted() const { return solves_left_ <= 0 || sweeps_left_ <= 0; }
 
   std::vector<Body>* bodies_;
   ConstraintOptions options_;
@@ -130,6 +138,8 @@ class ConstraintSolver {
   PlacedContacts placed_;
   std::vector<Vec3> forces_;  ///< on side a, world
   bool first_ = true;         ///< contacts have not been solved for in this step
+  int solves_left_ = 0;       ///< linear solves of the contact solver in this step
+  int sweeps_left_ = 0;       ///< its sweeps
   std::map<ContactKey, Vec3> known_forces_;
   ContactObserver observer_;
 };

@@ -30,16 +30,17 @@ struct Approach {
 
 class EdgePair {
  public:
-  EdgePair(const MovingSurface& a, int edge_a, const MovingSurface& b, int edge_b,
+  EdgePair(const MovingSurface& a, int edge_a, const MovingSurface& b, int edge_b, bool pressed,
            const ContactLimits& limits)
-      : a_(a), b_(b), edge_a_(edge_a), edge_b_(edge_b), limits_(limits) {
+      : a_(a), b_(b), edge_a_(edge_a), edge_b_(edge_b), pressed_(pressed), limits_(limits) {
     ends_a_ = a.topology->edges[edge_a].vertices;
     ends_b_ = b.topology->edges[edge_b].vertices;
   }
 
   std::optional<Contact> find() const {
     const std::optional<Approach> start = approach(0);
-    if (start && start->gap <= limits_.tolerance && start->gap >= -limits_.recovery_depth)
+    if (start && start->gap <= limits_.tolerance &&
+        (start->gap >= -limits_.recovery_depth || pressed_))
       return contact(*start);
     if (const auto hit = first_hit()) return contact(*hit);
     const std::optional<Approach> end = approach(1);
@@ -167,6 +168,7 @@ class EdgePair {
   const MovingSurface& a_;
   const MovingSurface& b_;
   int edge_a_, edge_b_;
+  bool pressed_;
   const ContactLimits& limits_;
   std::array<int, 2> ends_a_, ends_b_;
 };
@@ -174,8 +176,8 @@ class EdgePair {
 }  // namespace
 
 void add_edge_contact(const MovingSurface& a, int edge_a, const MovingSurface& b, int edge_b,
-                      const ContactLimits& limits, std::vector<Contact>& contacts) {
-  if (const auto contact = EdgePair(a, edge_a, b, edge_b, limits).find())
+                      bool pressed, const ContactLimits& limits, std::vector<Contact>& contacts) {
+  if (const auto contact = EdgePair(a, edge_a, b, edge_b, pressed, limits).find())
     contacts.push_back(*contact);
 }
 

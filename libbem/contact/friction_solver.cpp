@@ -70,6 +70,7 @@ FrictionResult solve_friction(const FrictionProblem& problem, Eigen::VectorXd& f
     const SetResult done = solve_set(set, options, best);
     result.sweeps = std::max(result.sweeps, done.sweeps);
     result.newton_steps = std::max(result.newton_steps, done.newton_steps);
+    result.infeasible = result.infeasible || done.infeasible;
     result.error = std::max(result.error, done.error);
     result.residual = std::max(result.residual, done.error * set.displacement_unit);
     result.converged = result.converged &&

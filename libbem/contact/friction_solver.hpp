@@ -36,6 +36,7 @@ struct FrictionResult {
   double complementarity = 0;  ///< max |u_n r_n| / (max |r_n| max |q|)
   double penetration = 0;      ///< max of -u_n and 0, in the unit of q [m]
   bool converged = true;       ///< every set is within one of the tolerances
+  bool infeasible = false;     ///< found by `newton`: no forces keep all contacts of a set apart
 };
 
 /// Solves the problem. `forces` (3n) holds the starting point (a solution nearby saves work; zero

@@ -1,5 +1,6 @@
 #include "contact/gauss_seidel.hpp"
 
+#include "base/interruption.hpp"
 #include "contact/natural_map.hpp"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ GaussSeidel::GaussSeidel(const ContactSet& set) : set_(set) {
 }
 
 double GaussSeidel::sweep(Eigen::VectorXd& forces) const {
+  check_interruption();
   const FrictionProblem& p = set_.problem;
   double sum = 0;
   for (int i = 0; i < p.contacts(); ++i) {
@@ -59,6 +61,7 @@ StaggeredProjections::StaggeredProjections(const ContactSet& set) : set_(set) {
 }
 
 double StaggeredProjections::normal_sweep(Eigen::VectorXd& forces) const {
+  check_interruption();
   double sum = 0;
   for (int i = 0; i < set_.problem.contacts(); ++i) {
     const double old = forces[3 * i];
@@ -71,6 +74,7 @@ double StaggeredProjections::normal_sweep(Eigen::VectorXd& forces) const {
 }
 
 double StaggeredProjections::friction_sweep(Eigen::VectorXd& forces) const {
+  check_interruption();
   double sum = 0;
   for (int i = 0; i < set_.problem.contacts(); ++i) {
     const Eigen::Vector2d old = forces.segment<2>(3 * i + 1);

@@ -1,5 +1,6 @@
 #include "contact/interior_point.hpp"
 
+#include "base/interruption.hpp"
 #include "contact/natural_map.hpp"
 
 #include <algorithm>
@@ -136,6 +137,7 @@ double InteriorPoint::step_length() const {
 }
 
 bool InteriorPoint::step() {
+  check_interruption();
   update_residual();
   const double product = mean_product(0), size = residual_.norm();
   if (!started_) {

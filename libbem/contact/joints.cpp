@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "contact/closest_points.hpp"
+#include "contact/signed_distance.hpp"
 #include "dynamics/rotation.hpp"
 #include "dynamics/selection.hpp"
 #include "mesh/corners.hpp"
@@ -36,6 +37,19 @@ Vec3 place_of(const Attachment& at, const std::vector<Vec3>& nodes) {
 
 Attachment node_attachment(int body, int node) {
   return {body, 1, {node, -1, -1}, {1, 0, 0}};
+}
+
+/// By vertex: the shortest of the edges around it [m].
+std::vector<double> shortest_edges(const TriangleMesh& mesh) {
+  std::vector<double> out(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      const double length = (mesh.vertices[a] - mesh.vertices[b]).norm();
+      out[a] = std::min(out[a], length);
+      out[b] = std::min(out[b], length);
+    }
+  return out;
 }
 
 /// Groups of nodes, over all bodies, that joints have already made one.
@@ -187,12 +201,14 @@ class Planner {
   void add_weld(const JointSpec& spec) {
     const int a = static_cast<int>(spec.a.body), b = static_cast<int>(spec.b->body);
     const Mat3 r = scene_.bodies[a].rotation.matrix();
+    WeldPlan weld;
+    weld.spec = &spec;
+    std::vector<char> matched_a(placed_[a].size(), 0), matched_b(placed_[b].size(), 0);
     // sorted by x, so that only a thin slab has to be searched
     std::vector<int> order(placed_[b].size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),
               [&](int i, int j) { return placed_[b][i][0] < placed_[b][j][0]; });
-    bool any = false;
     for (std::size_t i = 0; i < placed_[a].size(); ++i) {
       const Vec3& x = placed_[a][i];
       int match = -1;
@@ -206,7 +222,8 @@ class Planner {
         match = *it;
       }
       if (match < 0) continue;
-      any = true;
+      ++weld.joined;
+      matched_a[i] = matched_b[match] = 1;
       const int node = static_cast<int>(i);
       if (!groups_.unite({a, node}, {b, match})) continue;  // follows from other joints
       Joint joint;
@@ -215,13 +232,37 @@ class Planner {
       joint.offset = r.transpose() * (placed_[b][match] - x);
       plan_.joints.push_back(joint);
     }
-    if (!any)
+    add_unmatched(weld, a, matched_a, b);
+    add_unmatched(weld, b, matched_b, a);
+    if (weld.joined == 0)
       throw error_at(spec.location, "no vertex of body " + in_quotes(scene_.bodies[a].name) +
                                         " is within " + to_text(spec.tolerance) +
                                         " m of a vertex of body " +
-                                        in_quotes(scene_.bodies[b].name) +
-                                        " at the start; place them together or raise the "
-                                        "tolerance");
+                                        in_quotes(scene_.bodies[b].name) + " at the start; " +
+                                        (weld.nearly > 0 ? nearly_text(weld) + "; " : "") +
+                                        "place them together or raise the tolerance");
+    plan_.welds.push_back(weld);
+  }
+
+  /// Looks for vertices of `body` that miss a vertex of `other` by little, or lie on its surface.
+  void add_unmatched(WeldPlan& weld, int body, const std::vector<char>& matched, int other) const {
+    constexpr double kNear = 0.1, kOnSurface = 1e-3;  // of the shortest edge
+    const std::vector<Vec3>& x = placed_[body];
+    const std::vector<double> edges = shortest_edges(geometries_[body]->nodes);
+    const SignedDistance surface(geometries_[other]->nodes.triangles, placed_[other]);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (matched[i]) continue;
+      const double reach = std::max(kNear * edges[i], weld.spec->tolerance);
+      if (std::abs(surface(x[i])) > reach) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Vec3& y : placed_[other]) nearest = std::min(nearest, (y - x[i]).norm());
+      if (nearest <= reach) {
+        ++weld.nearly;
+        weld.farthest = std::max(weld.farthest, nearest);
+      } else if (std::abs(surface(x[i])) <= std::max(kOnSurface * edges[i], weld.spec->tolerance)) {
+        ++weld.alone;
+      }
+    }
   }
 
   const Scene& scene_;
@@ -232,6 +273,11 @@ class Planner {
 };
 
 }  // namespace
+
+std::string nearly_text(const WeldPlan& weld) {
+  return count_text(weld.nearly, "vertex") + (weld.nearly == 1 ? " misses" : " miss") +
+         " a partner by up to " + rounded_text(weld.farthest, 2) + " m";
+}
 
 bool Joint::is_active(double t) const {
   // a step that ends at the release time, up to rounding, is still held

@@ -206,7 +206,7 @@ std::vector<Mechanism> make_mechanisms(const JointPlan& plan, std::vector<Body>&
   std::vector<int> group(bodies.size());
   std::iota(group.begin(), group.end(), 0);
   const auto root = [&](int b) {
-    while (group[b] != b) b = group[b];
+    while (group[b] != b) b = group[b] = group[group[b]];
     return b;
   };
   for (const Joint& joint : plan.joints)
@@ -214,16 +214,15 @@ std::vector<Mechanism> make_mechanisms(const JointPlan& plan, std::vector<Body>&
       const int a = root(joint.a.body), b = root(joint.b.body);
       group[std::max(a, b)] = std::min(a, b);
     }
+  std::vector<std::vector<int>> members(bodies.size()), joints(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    members[root(static_cast<int>(b))].push_back(static_cast<int>(b));
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    joints[root(plan.joints[j].a.body)].push_back(static_cast<int>(j));
   std::vector<Mechanism> out;
-  for (int first = 0; first < static_cast<int>(bodies.size()); ++first) {
-    if (root(first) != first) continue;
-    std::vector<int> members, joints;
-    for (int b = first; b < static_cast<int>(bodies.size()); ++b)
-      if (root(b) == first) members.push_back(b);
-    for (std::size_t j = 0; j < plan.joints.size(); ++j)
-      if (root(plan.joints[j].a.body) == first) joints.push_back(static_cast<int>(j));
-    out.emplace_back(std::move(members), std::move(joints), plan, bodies);
-  }
+  for (std::size_t first = 0; first < bodies.size(); ++first)
+    if (!members[first].empty())
+      out.emplace_back(std::move(members[first]), std::move(joints[first]), plan, bodies);
   return out;
 }
 

@@ -18,6 +18,12 @@ Vec3 unit(const Vec3& v) {
   return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
 }
 
+/// Is edge k of triangle i of the fans one without a second triangle?
+bool is_rim(const SurfaceTopology& topology, int i, int k) {
+  const int edge = topology.triangle_edges[topology.fan_triangles[i]][k];
+  return topology.edges[edge].triangles[1] < 0;
+}
+
 }  // namespace
 
 Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -42,7 +48,11 @@ Vec3 vertex_normal(const MovingSurface& surface, int vertex, double t) {
     const Vec3 q = surface.vertex(c[(k + 2) % 3], t) - at;
     const Vec3 normal = p.cross(q);
     const double sine = normal.norm();
-    if (sine > 0) sum += std::atan2(sine, p.dot(q)) / sine * normal;
+    if (sine == 0) continue;
+    sum += std::atan2(sine, p.dot(q)) / sine * normal;
+    // At a rim the surface turns by a right angle, from the triangle to outward along the sheet.
+    if (is_rim(topology, i, k)) sum += kPi / 2 * unit(p.cross(normal));
+    if (is_rim(topology, i, (k + 2) % 3)) sum += kPi / 2 * unit(normal.cross(q));
   }
   return unit(sum);
 }

@@ -39,7 +39,8 @@ Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c);
 /// Unit normal of a triangle at time t; zero for a triangle without area.
 Vec3 triangle_normal(const MovingSurface& surface, int triangle, double t);
 
-/// Unit pseudonormal of a vertex: normals of its triangles weighted by their angles. With the
+/// Unit pseudonormal of a vertex: normals of its triangles weighted by their angles, and at a rim
+/// the outward direction along the sheet weighted by a right angle. With the
 /// normals of triangles and the sum of both at an edge, it tells inside from outside (Baerentzen &
 /// Aanaes 2005).
 Vec3 vertex_normal(const MovingSurface& surface, int vertex, double t);

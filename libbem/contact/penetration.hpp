@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contact/collision_detector.hpp"
+#include "contact/signed_distance.hpp"
 
 namespace bem {
 
@@ -14,6 +15,7 @@ struct Penetration {
 /// what that triangle's pseudonormal and, for a closed surface, the winding number say. O((n + m)
 /// log m) for n points in the surface's box, and O(m) for every point that is deeper than those
 /// before.
+Penetration deepest_penetration(const std::vector<Vec3>& points, const SignedDistance& surface);
 Penetration deepest_penetration(const std::vector<Vec3>& points,
                                 const std::vector<Triangle>& triangles,
                                 const std::vector<Vec3>& vertices);

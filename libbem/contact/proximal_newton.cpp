@@ -1,5 +1,6 @@
 #include "contact/proximal_newton.hpp"
 
+#include "base/interruption.hpp"
 #include "contact/natural_map.hpp"
 
 #include <algorithm>
@@ -85,6 +86,7 @@ double ProximalNewton::residual(const Eigen::VectorXd& r, const Eigen::VectorXd&
 
 bool ProximalNewton::newton_direction(const Eigen::VectorXd& r, const Eigen::VectorXd& u,
                                       const Eigen::VectorXd& value) {
+  check_interruption();
   const FrictionProblem& p = set_.problem;
   closed_.clear();
   direction_ = Eigen::VectorXd::Zero(r.size());
@@ -156,6 +158,17 @@ bool ProximalNewton::solve_regularised(double goal, int max_steps, Eigen::Vector
     if (!newton_direction(r, u, value)) return false;
     if (line_search(*std::max_element(recent.begin(), recent.end()), r, u) == 0) return false;
   }
+}
+
+bool ProximalNewton::solve_compliant(double alpha, int max_steps, Eigen::VectorXd& forces,
+                                     int& steps) {
+  constexpr double kGoal = 1e-3;  // of the displacement that the softness allows
+  steps_ = 0;
+  alpha_ = alpha;
+  centre_ = Eigen::VectorXd::Zero(forces.size());
+  const bool solved = solve_regularised(kGoal * alpha, max_steps, forces);
+  steps += steps_;
+  return solved;
 }
 
 int ProximalNewton::solve(double tolerance, double regularisation, const NewtonLimits& limits,

@@ -24,6 +24,11 @@ class ProximalNewton {
   /// Improves `best` until its error is at most `tolerance`; returns the number of linear solves.
   int solve(double tolerance, double regularisation, const NewtonLimits& limits, BestForces& best);
 
+  /// Solves the problem with contacts that give way, by `alpha` times what their own blocks do:
+  /// u + alpha w_i r in place of u. Starts from `forces`, which receives the solution; false after
+  /// `max_steps` linear solves without one. `steps` counts them.
+  bool solve_compliant(double alpha, int max_steps, Eigen::VectorXd& forces, int& steps);
+
  private:
   void displacements(const Eigen::VectorXd& forces, Eigen::VectorXd& u) const;
   double residual(const Eigen::VectorXd& r, const Eigen::VectorXd& u, Eigen::VectorXd& value) const;

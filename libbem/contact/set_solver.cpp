@@ -5,7 +5,9 @@
 #include "contact/natural_map.hpp"
 #include "contact/proximal_newton.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace bem {
 namespace {
@@ -44,6 +46,31 @@ int interior_point_and_polish(const ContactSet& set, double tolerance, int max_s
   return steps;
 }
 
+double deepest(const ContactSet& set, const Eigen::VectorXd& forces) {
+  double depth = 0;
+  for (int i = 0; i < set.problem.contacts(); ++i)
+    depth = std::max(depth, -displacement(set.problem, i, forces)[0]);
+  return depth;
+}
+
+/// Whether no forces keep all contacts apart, as those of something rigid between closing walls:
+/// then contacts that give way ever less come to a limit of their penetration, which else falls
+/// with their softness. `best` takes the forces of the least soft ones.
+bool is_infeasible(const ContactSet& set, double sufficient, ProximalNewton& newton,
+                   BestForces& best, int& steps) {
+  constexpr int kMostSteps = 15;
+  constexpr double kStays = 0.5;  // of the penetration with ten times the softness
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * set.problem.contacts());
+  double last = 0, now = 0;
+  for (double alpha : {1e-2, 1e-3, 1e-4}) {
+    if (!newton.solve_compliant(alpha, kMostSteps, forces, steps)) return false;
+    last = std::exchange(now, deepest(set, forces));
+  }
+  const bool infeasible = now > sufficient && now > kStays * last;
+  if (infeasible) best.replace(forces);
+  return infeasible;
+}
+
 }  // namespace
 
 BestForces::BestForces(const ContactSet& set, const Eigen::VectorXd& start)
@@ -63,6 +90,11 @@ double BestForces::consider(const Eigen::VectorXd& forces) {
     forces_.swap(candidate_);
   }
   return error;
+}
+
+void BestForces::replace(const Eigen::VectorXd& forces) {
+  error_ = std::numeric_limits<double>::infinity();
+  consider(forces);
 }
 
 SetResult solve_staggered(const ContactSet& set, double tolerance, const FrictionOptions& options,
@@ -108,6 +140,11 @@ SetResult solve_newton(const ContactSet& set, double tolerance, double sufficien
   attempt.failures = 0;
   int& steps = result.newton_steps;
   steps = newton.solve(tolerance, kFirstAlpha, attempt, best);
+  if (best.error() > sufficient && is_infeasible(set, sufficient, newton, best, steps)) {
+    result.infeasible = true;
+    result.error = best.error();
+    return result;
+  }
   if (best.error() > sufficient)
     steps += interior_point_and_polish(
         set, sufficient, std::min(kInteriorSteps, options.max_newton_steps - steps), newton, best);

@@ -8,7 +8,8 @@ namespace bem {
 /// What a solver did with one connected set.
 struct SetResult {
   int sweeps = 0, newton_steps = 0;
-  double error = 0;  ///< of the returned forces
+  double error = 0;         ///< of the returned forces
+  bool infeasible = false;  ///< no forces keep all contacts apart
 };
 
 /// Keeps the forces with the least error, inside the friction cones.
@@ -19,6 +20,8 @@ class BestForces {
   /// Projects `forces` onto the friction cones, evaluates the error there and keeps them if it is
   /// the least so far; returns it.
   double consider(const Eigen::VectorXd& forces);
+  /// Takes the forces whatever their error.
+  void replace(const Eigen::VectorXd& forces);
   double error() const { return error_; }
   const Eigen::VectorXd& forces() const { return forces_; }
 

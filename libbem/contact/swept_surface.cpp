@@ -31,7 +31,8 @@ void SweptSurface::sweep(const std::vector<Vec3>& start, const std::vector<Vec3>
                          double reach) {
   require(static_cast<int>(start.size()) == topology_.vertex_count() && end.size() == start.size(),
           "a motion has the vertices of its surface");
-  if (start == start_ && end == end_) return;
+  if (start == start_ && end == end_ && reach == reach_) return;
+  reach_ = reach;
   start_ = start;
   end_ = end;
   ++motion_version_;

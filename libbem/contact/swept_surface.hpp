@@ -42,6 +42,7 @@ class SweptSurface {
 
   SurfaceTopology topology_;
   std::vector<Vec3> start_, end_;
+  double reach_ = 0;  ///< [m]
   std::vector<BoundingBox> vertex_boxes_, wide_boxes_;
   BoundingBox swept_box_, box_;
   std::optional<BoundingTree> tree_;

@@ -37,11 +37,12 @@ struct Proposal {
 
 class VertexContacts {
  public:
-  VertexContacts(const MovingSurface& a, int vertex, const MovingSurface& b,
+  VertexContacts(const MovingSurface& a, int vertex, const MovingSurface& b, int pressed,
                  const ContactLimits& limits)
       : a_(a),
         b_(b),
         vertex_(vertex),
+        pressed_(pressed),
         limits_(limits),
         inclusive_(3 * limits.tolerance),
         rim_(kRim * limits.margin),
@@ -50,9 +51,12 @@ class VertexContacts {
 
   void add(const int* first, const int* last, std::vector<Contact>& contacts) {
     candidates_.reserve(last - first);
-    for (; first != last; ++first)
-      candidates_.push_back({*first, place_at_triangle(start_, b_, *first, 0),
-                             place_at_triangle(end_, b_, *first, 1)});
+    for (; first != last; ++first) {
+      Candidate c{*first, place_at_triangle(start_, b_, *first, 0),
+                  place_at_triangle(end_, b_, *first, 1)};
+      // what has no area has no side to be on
+      if (!c.start.normal.isZero(0) && !c.end.normal.isZero(0)) candidates_.push_back(c);
+    }
     propose_entered();
     propose_near();
     for (const Proposal& p : proposals_)
@@ -100,10 +104,17 @@ class VertexContacts {
   }
 
   bool touches_at_start(const TrianglePlace& start, bool inside, double nearest) const {
-    if (start.height > limits_.tolerance || start.height < -limits_.recovery_depth) return false;
+    if (start.height > limits_.tolerance) return false;
+    if (start.height < -limits_.recovery_depth) return is_pressed_against(start);
     if (start.height >= -limits_.tolerance && start.overhang <= inclusive_) return true;
     return inside && (start_ - start.closest.point).norm() <=
                          std::min(nearest + limits_.tolerance, limits_.recovery_depth);
+  }
+
+  /// Deeper than the recovery depth: is this the side that held the vertex in the step before?
+  bool is_pressed_against(const TrianglePlace& start) const {
+    return pressed_ >= 0 && start.overhang <= inclusive_ &&
+           start.normal.dot(triangle_normal(b_, pressed_, 0)) > kSameSide;
   }
 
   void propose_crossed(const Candidate& c) {
@@ -247,7 +258,7 @@ class VertexContacts {
 
   const MovingSurface& a_;
   const MovingSurface& b_;
-  int vertex_;
+  int vertex_, pressed_;
   const ContactLimits& limits_;
   double inclusive_;  ///< a foot this far outside a triangle is still on it [m]
   double rim_;        ///< a foot this far inside a triangle is beside its edge [m]
@@ -259,9 +270,9 @@ class VertexContacts {
 }  // namespace
 
 void add_vertex_contacts(const MovingSurface& a, int vertex, const MovingSurface& b,
-                         const int* first, const int* last, const ContactLimits& limits,
-                         std::vector<Contact>& contacts) {
-  VertexContacts(a, vertex, b, limits).add(first, last, contacts);
+                         const int* first, const int* last, int pressed,
+                         const ContactLimits& limits, std::vector<Contact>& contacts) {
+  VertexContacts(a, vertex, b, pressed, limits).add(first, last, contacts);
 }
 
 }  // namespace bem

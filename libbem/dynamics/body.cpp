@@ -349,13 +349,17 @@ void Body::end_step() {
     for (PrescribedLoad& p : loads_) p.history.push(p.stages);
   }
   check_end();
-  if (elastic_) displacement_ = end_displacement_;
+  if (elastic_) {
+    deformation_.record(model().geometry.nodes, end_shape(), stage_time(stage_count_ - 1));
+    check_inversion();
+    displacement_ = end_displacement_;
+  }
   frame_.advance(frame_stages_);
 }
 
 void Body::visit_state(StateArchive& state) {
   state(frame_, displacement_);
-  if (elastic_) state(*elastic_);
+  if (elastic_) state(*elastic_, deformation_);
   for (PrescribedLoad& p : loads_) state(p.history);
 }
 

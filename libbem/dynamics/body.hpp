@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dynamics/corner_loads.hpp"
+#include "dynamics/deformation_watch.hpp"
 #include "dynamics/elastic_part.hpp"
 #include "dynamics/impulses.hpp"
 #include "dynamics/rigid_frame.hpp"
@@ -101,7 +102,8 @@ class Body {
   /// World positions of all nodes at the end of the step that update() has computed.
   std::vector<Vec3> end_positions();
   /// Takes the end of the step as the new state. Throws ErrorCode::numerical if it is not finite,
-  /// or deformed to a hundred times the body's size; place and momentum remain those before it.
+  /// inside out, or deformed to a hundred times the body's size; place and momentum remain those
+  /// before it.
   void end_step();
 
   const std::string& name() const { return spec_.name; }
@@ -119,6 +121,7 @@ class Body {
   std::vector<Vec3> tractions() const;
   /// Displacements in body axes, 3 per node [m].
   const Eigen::VectorXd& displacement() const { return displacement_; }
+  const DeformationWatch& deformation() const { return deformation_; }
   Vec3 linear_momentum() const { return frame_.mass() * frame_.velocity(); }
   /// Gravity, loads and window in the step that update() has computed.
   Impulses impulses() const;
@@ -129,6 +132,8 @@ class Body {
  private:
   bool is_quasistatic() const { return model().kind == ModelKind::quasistatic; }
   void check_end() const;
+  void check_inversion() const;
+  std::vector<Vec3> end_shape() const;
   void check_loadable(const std::vector<int>& nodes) const;
   double stage_time(int stage) const;
   double set_centrifugal();
@@ -168,6 +173,7 @@ class Body {
   ElasticPart::Displacements node_displacements_;
   Eigen::VectorXd displacement_, end_displacement_;
   bool end_known_ = false;
+  DeformationWatch deformation_;
 };
 
 }  // namespace bem

@@ -4,6 +4,15 @@
 // What a body shows of its motion.
 
 namespace bem {
+namespace {
+
+/// Of motions that have no meaning any more.
+constexpr const char* kCures =
+    "if its loads or handles do that, make them smaller or its material stiffer, or cut it into "
+    "parts that welds join; if not, its motion is unstable: make its archive with --window auto "
+    "(or a smaller window), a larger --dt, a smaller --codec-tol or a finer mesh";
+
+}  // namespace
 
 Impulses Body::impulses() const {
   Impulses out;
@@ -59,6 +68,21 @@ std::vector<Vec3> Body::tractions() const {
   return out;
 }
 
+/// The nodes at the end of the step as seen from the frame.
+std::vector<Vec3> Body::end_shape() const {
+  const int last = stage_count_ - 1;
+  const Mat3 to_frame = frame_stages_.rotation[last].transpose();
+  const std::vector<Vec3>& x = model().geometry.nodes.vertices;
+  std::vector<Vec3> out;
+  out.reserve(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec3 u = end_displacement_.segment<3>(static_cast<Eigen::Index>(3 * i));
+    out.emplace_back(
+        to_frame * (frame_.place(frame_stages_, last, x[i], u) - frame_stages_.translation[last]));
+  }
+  return out;
+}
+
 /// Stops motions that have no meaning any more.
 void Body::check_end() const {
   constexpr double kMostDeformation = 100;  // of the body's size
@@ -72,13 +96,22 @@ void Body::check_end() const {
   if (is_rigid()) return;
   const double most = end_displacement_.cwiseAbs().maxCoeff() / model().geometry.extent;
   if (most > kMostDeformation)
-    throw Error(
-        ErrorCode::numerical,
-        "body \"" + spec_.name + "\" is deformed to " + std::to_string(static_cast<long>(most)) +
-            " times its size" + when +
-            ": if its loads do not do that, its motion is unstable; make its archive with "
-            "--window auto (or a smaller window), a larger --dt, a smaller --codec-tol or a "
-            "finer mesh");
+    throw Error(ErrorCode::numerical, "body \"" + spec_.name + "\" is deformed to " +
+                                          std::to_string(static_cast<long>(most)) +
+                                          " times its size" + when + ": " + kCures);
+}
+
+void Body::check_inversion() const {
+  if (!deformation_.is_inside_out()) return;
+  const double volume = deformation_.least_volume().value;
+  const double share = deformation_.inverted().value;
+  throw Error(ErrorCode::numerical,
+              "body \"" + spec_.name + "\" is turned inside out at t = " +
+                  std::to_string(stage_time(stage_count_ - 1)) + " s: " +
+                  (volume > 0 ? std::to_string(static_cast<long>(100 * share)) +
+                                    " % of its surface have gone through zero area"
+                              : "its volume is " + std::to_string(volume) + " times that at rest") +
+                  ", which linear elasticity does not forbid: " + kCures);
 }
 
 }  // namespace bem

@@ -1,13 +1,18 @@
 #include "mesh/isolated_process.hpp"
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,10 +21,18 @@ namespace bem {
 namespace {
 
 constexpr int kCrashed = 99;
+constexpr int kPatience = 50;  // milliseconds between two looks at interruptions
 
 void set_limit(int which, rlim_t value) {
   const rlimit limit{value, value};
   setrlimit(static_cast<decltype(RLIMIT_CPU)>(which), &limit);
+}
+
+/// Address space of this process [B]; 0 if it cannot be found.
+rlim_t address_space() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
 void silence(int descriptor) {
@@ -37,66 +50,111 @@ bool write_all(int descriptor, const std::string& bytes) {
   return true;
 }
 
-[[noreturn]] void run_child(const std::function<std::string()>& work, int cpu_seconds, int pipe) {
-  for (int signal : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE})
-    std::signal(signal, SIG_DFL);
-  set_limit(RLIMIT_CORE, 0);
-  set_limit(RLIMIT_CPU, static_cast<rlim_t>(cpu_seconds));
+[[noreturn]] void run_child(const std::function<std::string()>& work, const IsolatedLimits& limits,
+                            int pipe, pid_t parent) {
+  // Interruptions are the parent's business: it ends the child, by SIGKILL if it dies itself.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(kCrashed);
+  for (int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
+  for (int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE}) std::signal(signal, SIG_DFL);
   silence(STDOUT_FILENO);
   silence(STDERR_FILENO);
   int status = kCrashed;
   try {
+    if (const rlim_t now = address_space(); now > 0) set_limit(RLIMIT_AS, now + limits.memory);
+    set_limit(RLIMIT_CORE, 0);
+    set_limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_seconds));
     status = write_all(pipe, work()) ? 0 : kCrashed;
   } catch (...) {
   }
   _exit(status);
 }
 
-std::string read_all(int descriptor) {
-  std::string bytes;
-  std::array<char, 65536> buffer;
-  for (;;) {
-    const ssize_t n = read(descriptor, buffer.data(), buffer.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return bytes;
-    bytes.append(buffer.data(), static_cast<std::size_t>(n));
-  }
-}
-
 [[noreturn]] void fail(const char* what) {
   throw Error(ErrorCode::resources, std::string(what) + ": " + std::strerror(errno));
 }
 
-}  // namespace
-
-IsolatedResult run_isolated(const std::function<std::string()>& work, int cpu_seconds) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) fail("cannot open a pipe");
-  const pid_t child = fork();
-  if (child < 0) {
-    close(ends[0]);
+/// A child process and the pipe that it writes to; both end with the object.
+class Child {
+ public:
+  Child(const std::function<std::string()>& work, const IsolatedLimits& limits) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) fail("cannot open a pipe");
+    const pid_t parent = getpid();
+    process_ = fork();
+    if (process_ == 0) {
+      close(ends[0]);
+      run_child(work, limits, ends[1], parent);
+    }
     close(ends[1]);
+    pipe_ = ends[0];
+    if (process_ > 0) return;
+    const int cause = errno;
+    close(pipe_);
+    errno = cause;
     fail("cannot start a process");
   }
-  if (child == 0) {
-    close(ends[0]);
-    run_child(work, cpu_seconds, ends[1]);
+  ~Child() {
+    close(pipe_);
+    if (process_ > 0) stop();
   }
-  close(ends[1]);
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// Appends what arrives within a moment; false at the end.
+  bool read_some(std::string& bytes) const {
+    pollfd ready{pipe_, POLLIN, 0};
+    const int found = poll(&ready, 1, kPatience);
+    if (found == 0 || (found < 0 && errno == EINTR)) return true;
+    std::array<char, 65536> buffer;
+    const ssize_t n = read(pipe_, buffer.data(), buffer.size());
+    if (n < 0 && errno == EINTR) return true;
+    if (n <= 0) return false;
+    bytes.append(buffer.data(), static_cast<std::size_t>(n));
+    return true;
+  }
+
+  /// Waits for the end and returns its status.
+  int wait() {
+    int status = 0;
+    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = 0;
+    return status;
+  }
+
+  int stop() {
+    kill(process_, SIGKILL);
+    return wait();
+  }
+
+ private:
+  pid_t process_ = 0;
+  int pipe_ = -1;
+};
+
+std::string failure_text(int status) {
+  if (!WIFSIGNALED(status)) return "stopped early";
+  const bool late = WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL;
+  return late ? "took too much time or memory" : strsignal(WTERMSIG(status));
+}
+
+}  // namespace
+
+IsolatedResult run_isolated(const std::function<std::string()>& work,
+                            const IsolatedLimits& limits) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(limits.wall_seconds);
+  Child child(work, limits);
   IsolatedResult result;
-  result.output = read_all(ends[0]);
-  close(ends[0]);
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  bool in_time = true;
+  while (in_time && child.read_some(result.output)) {
+    check_interruption();
+    in_time = Clock::now() < end;
   }
+  const int status = in_time ? child.wait() : child.stop();
   result.finished = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  if (!result.finished) {
-    const bool late =
-        WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL);
-    result.failure = late                  ? "took too much time or memory"
-                     : WIFSIGNALED(status) ? strsignal(WTERMSIG(status))
-                                           : "stopped early";
-  }
+  if (!result.finished) result.failure = failure_text(status);
   return result;
 }
 

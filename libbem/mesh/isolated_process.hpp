@@ -1,9 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
 namespace bem {
+
+/// What work in a process of its own may take.
+struct IsolatedLimits {
+  int cpu_seconds = 10;
+  double wall_seconds = 100;
+  std::size_t memory = std::size_t{1} << 30;  ///< beyond what this process has [B]
+};
 
 /// What became of a piece of work in a process of its own.
 struct IsolatedResult {
@@ -14,9 +22,13 @@ struct IsolatedResult {
 
 /// Runs `work` in a child process and returns the bytes that it returned, so that third-party code
 /// which aborts, crashes or hangs on damaged input cannot take this process along. The child prints
-/// nothing, leaves no core file and is stopped after `cpu_seconds` of processor time. `work` must
-/// not throw, must not start threads, and must not need locks that other threads of this process
-/// hold. Throws ErrorCode::resources if no process can be started.
-IsolatedResult run_isolated(const std::function<std::string()>& work, int cpu_seconds);
+/// nothing, leaves no core file, is stopped at the limits, and ends with this process, however that
+/// ends. `work` must not throw (an allocation beyond the limit throws std::bad_alloc there), must
+/// not start threads, and must not need locks that other threads of this process hold.
+///
+/// While it waits it calls check_interruption() (base/interruption.hpp) twenty times a second: what
+/// that throws ends the child and is passed on. Throws ErrorCode::resources if no process can be
+/// started.
+IsolatedResult run_isolated(const std::function<std::string()>& work, const IsolatedLimits& limits);
 
 }  // namespace bem

@@ -1,14 +1,20 @@
 #include "mesh/mesh_io.hpp"
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
+#include "base/pending_file.hpp"
 #include "mesh/assimp_reader.hpp"
+#include "mesh/mesh_format.hpp"
 #include "mesh/obj_reader.hpp"
+#include "mesh/off_reader.hpp"
+#include "mesh/triangulate.hpp"
 
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <limits>
 
 namespace bem {
 namespace {
@@ -23,17 +29,42 @@ std::string lower_extension(const std::string& path) {
   throw Error(ErrorCode::invalid_input, path + ": " + cause);
 }
 
-std::string read_text(const std::string& path) {
+/// Is the file there? A mesh may also come through a pipe where `may_stream` says so.
+void check_file(const std::string& path, bool may_stream) {
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
   if (!std::filesystem::exists(status)) refuse(path, "no such mesh file");
   if (std::filesystem::is_directory(status)) refuse(path, "is a directory, not a mesh file");
+  if (!may_stream && !std::filesystem::is_regular_file(status))
+    refuse(path, "is not a file but a device or a pipe, through which only OBJ and OFF can come");
+}
+
+std::string read_text(const std::string& path, std::size_t most) {
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  std::string text;
+  std::array<char, 1 << 16> buffer;
+  while (file && text.size() < most) {
+    check_interruption();
+    file.read(buffer.data(), buffer.size());
+    text.append(buffer.data(), static_cast<std::size_t>(file.gcount()));
+  }
   if (file.bad() || !file.is_open())
     throw Error(ErrorCode::resources, path + ": the mesh file cannot be read");
-  return std::move(text).str();
+  return text;
+}
+
+PolygonMesh read_polygons(const std::string& path) {
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t kHead = 4000;
+  const std::string extension = lower_extension(path);
+  const bool own = extension == ".obj" || extension == ".off";
+  check_file(path, own);
+  const std::string text = read_text(path, own ? kAll : kHead);
+  if (const std::string format = unreadable_format(text); !format.empty())
+    throw Error(ErrorCode::invalid_input, unsupported_text(path, format));
+  if (extension == ".obj") return parse_obj(text, path);
+  if (extension == ".off") return parse_off(text, path);
+  return read_with_assimp(path);
 }
 
 void append_number(std::string& text, double value) {
@@ -44,12 +75,10 @@ void append_number(std::string& text, double value) {
 }  // namespace
 
 TriangleMesh read_mesh(const std::string& path) {
-  const std::string text = read_text(path);
-  if (lower_extension(path) == ".obj") return parse_obj(text, path);
-  return read_with_assimp(path);
+  return triangulate(read_polygons(path), path);
 }
 
-void write_obj(const std::string& path, const TriangleMesh& mesh) {
+std::string obj_text(const TriangleMesh& mesh) {
   std::string text;
   for (const Vec3& v : mesh.vertices) {
     text += "v";
@@ -61,10 +90,11 @@ void write_obj(const std::string& path, const TriangleMesh& mesh) {
     for (int v : t) text += " " + std::to_string(v + 1);
     text += "\n";
   }
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(ErrorCode::resources, path + ": cannot be written");
+  return text;
+}
+
+void write_obj(const std::string& path, const TriangleMesh& mesh) {
+  PendingFile(path).commit(obj_text(mesh));
 }
 
 }  // namespace bem

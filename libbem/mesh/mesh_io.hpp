@@ -6,20 +6,26 @@
 
 namespace bem {
 
-/// Reads the triangles of a mesh file; polygons are triangulated, everything but geometry is left
-/// out. The result is what the file says, unchecked: see make_surface.
+/// Reads the triangles of a mesh file; faces with more corners are cut into triangles
+/// (mesh/triangulate.hpp), everything but geometry is left out. The result is what the file says,
+/// unchecked: see make_surface.
 ///
-/// OBJ files (by extension) go through a reader of our own in double precision that keeps the
+/// OBJ and OFF files (by extension) go through readers of our own in double precision that keep the
 /// file's vertices and faces in their order. Every other format goes through assimp: single
 /// precision, node transforms applied, and vertices joined where the format (STL) repeats them in
-/// every triangle.
+/// every face.
 ///
-/// Throws ErrorCode::invalid_input if the file does not exist or cannot be understood (the message
-/// names the file, for OBJ also the line), ErrorCode::resources if it exists but must not be read.
+/// Throws ErrorCode::invalid_input if the file does not exist, has a format that is not supported,
+/// or cannot be understood (the message names the file, for OBJ and OFF also the line), and
+/// ErrorCode::resources if it exists but must not be read. Calls check_interruption() all the time.
 TriangleMesh read_mesh(const std::string& path);
 
-/// Writes an OBJ file, overwriting an existing one. Coordinates are the shortest decimals that read
-/// back to the same double. Throws ErrorCode::resources if the file cannot be written.
+/// What an OBJ file of the mesh says. Coordinates are the shortest decimals that read back to the
+/// same double.
+std::string obj_text(const TriangleMesh& mesh);
+
+/// Writes an OBJ file; an existing one is replaced when it is complete. Throws ErrorCode::resources
+/// if the file cannot be written.
 void write_obj(const std::string& path, const TriangleMesh& mesh);
 
 }  // namespace bem

@@ -1,6 +1,7 @@
 #include "mesh/orientation.hpp"
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/describe.hpp"
 
@@ -52,6 +53,23 @@ bool lies_within(const TriangleMesh& nodes, const Component& inner, const Compon
     balance += inside ? 1 : -1;
   }
   return balance > 0;
+}
+
+void find_depths(const TriangleMesh& nodes, std::vector<Component>& components) {
+  const int n = static_cast<int>(components.size());
+  std::vector<std::vector<int>> around(n);
+  for (int inner = 0; inner < n; ++inner) {
+    check_interruption();
+    for (int outer = 0; outer < n; ++outer)
+      if (inner != outer && lies_within(nodes, components[inner], components[outer]))
+        around[inner].push_back(outer);
+    components[inner].depth = static_cast<int>(around[inner].size());
+  }
+  for (int inner = 0; inner < n; ++inner)
+    for (int outer : around[inner]) {
+      int& parent = components[inner].parent;
+      if (parent < 0 || components[outer].depth > components[parent].depth) parent = outer;
+    }
 }
 
 std::string first_triangle(const TriangleMesh& input, const Component& component) {
@@ -112,9 +130,7 @@ std::vector<Component> surface_components(const TriangleMesh& nodes) {
     measure(nodes, component);
     components.push_back(std::move(component));
   }
-  for (Component& inner : components)
-    for (const Component& outer : components)
-      if (&inner != &outer && lies_within(nodes, inner, outer)) ++inner.depth;
+  find_depths(nodes, components);
   return components;
 }
 
@@ -122,25 +138,25 @@ void orient_outward(const TriangleMesh& input, TriangleMesh& nodes, const std::s
                     std::vector<std::string>& warnings) {
   const std::vector<Component> components = surface_components(nodes);
   refuse_flat(input, components, source);
-  std::size_t flipped = 0, solids = 0;
-  const Component* first_flipped = nullptr;
-  const Component* second_solid = nullptr;
+  std::vector<const Component*> inward, shells;
   for (const Component& c : components) {
-    const bool solid = c.depth % 2 == 0;
-    if (solid && ++solids == 2) second_solid = &c;
-    if (solid == (c.volume > 0)) continue;
-    if (flipped++ == 0) first_flipped = &c;
+    if (c.is_solid() == (c.volume > 0)) continue;
+    // a cavity of a part that was turned is turned with it
+    const bool alone = !c.is_solid() && components[c.parent].volume > 0;
+    (alone ? shells : inward).push_back(&c);
     for (int t : c.triangles) std::swap(nodes.triangles[t][1], nodes.triangles[t][2]);
   }
-  if (flipped > 0)
+  const std::string of_all = " of " + std::to_string(components.size()) + ", first the one with ";
+  if (!inward.empty())
     warnings.push_back(source + ": the surface pointed inward and was turned outward: " +
-                       count_text(flipped, "part") + " of " + std::to_string(components.size()) +
-                       ", first the one with " + first_triangle(input, *first_flipped));
-  if (solids > 1)
-    warnings.push_back(source + ": " + std::to_string(solids) +
-                       " separate solids, the second begins at " +
-                       first_triangle(input, *second_solid) +
-                       ": no material connects them, make one body of each");
+                       count_text(inward.size(), "part") + of_all +
+                       first_triangle(input, *inward.front()));
+  if (!shells.empty())
+    warnings.push_back(
+        source + ": a closed part inside of another one is its cavity, although its " +
+        "triangles face outward, and was turned: " + count_text(shells.size(), "part") + of_all +
+        first_triangle(input, *shells.front()) +
+        "; if it should be material, remove it: the outer part is solid without it");
 }
 
 }  // namespace bem

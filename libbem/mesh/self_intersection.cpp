@@ -1,5 +1,7 @@
 #include "mesh/self_intersection.hpp"
 
+#include "base/interruption.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -121,6 +123,7 @@ class TriangleTree {
     const Node& p = nodes_[a];
     const Node& q = nodes_[b];
     if (!overlap(p.box, q.box)) return;
+    check_interruption();
     if (a == b && p.left >= 0) {
       compare(p.left, p.left);
       compare(p.left, p.right);

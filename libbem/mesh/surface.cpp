@@ -1,5 +1,6 @@
 #include "mesh/surface.hpp"
 
+#include "base/interruption.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/orientation.hpp"
 #include "mesh/self_intersection.hpp"
@@ -42,19 +43,14 @@ Surface make_surface(TriangleMesh input, const std::string& source_name) {
   Welded welded = weld(surface.input);
   surface.node_of_vertex = std::move(welded.node_of_vertex);
   surface.nodes = std::move(welded.mesh);
+  check_interruption();
   check_closed_manifold(surface.input, surface.nodes, source_name);
   warn_unused_vertices(surface, source_name, surface.warnings);
   orient_outward(surface.input, surface.nodes, source_name, surface.warnings);
+  check_interruption();
   warn_thin_triangles(surface.input, surface.nodes, source_name, surface.warnings);
   warn_self_intersections(surface, source_name, surface.warnings);
   return surface;
-}
-
-TriangleMesh make_open_surface(const TriangleMesh& input, const std::string& source_name) {
-  check_elements(input, source_name);
-  TriangleMesh nodes = weld(input).mesh;
-  check_open_surface(input, nodes, source_name);
-  return nodes;
 }
 
 }  // namespace bem

@@ -22,8 +22,4 @@ struct Surface {
 /// triangles.
 Surface make_surface(TriangleMesh input, const std::string& source_name);
 
-/// A welded surface that may be open, as obstacles are; its triangles keep their orientation.
-/// Throws as make_surface, but for boundaries and volume.
-TriangleMesh make_open_surface(const TriangleMesh& input, const std::string& source_name);
-
 }  // namespace bem

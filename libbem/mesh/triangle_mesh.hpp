@@ -16,6 +16,12 @@ struct TriangleMesh {
   std::vector<Triangle> triangles;
 };
 
+/// The mesh with its coordinates multiplied.
+inline TriangleMesh scaled(TriangleMesh mesh, const Vec3& scale) {
+  for (Vec3& v : mesh.vertices) v = v.cwiseProduct(scale);
+  return mesh;
+}
+
 /// Axis-aligned box [m].
 struct BoundingBox {
   Vec3 min = Vec3::Zero();

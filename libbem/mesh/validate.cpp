@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/describe.hpp"
+#include "mesh/open_edges.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -51,8 +52,38 @@ void check_areas(const TriangleMesh& input, const TriangleMesh& nodes, const std
          count_text(bad.count, "such triangle"), "collapse or remove them");
 }
 
-void check_edges(const TriangleMesh& input, const TriangleMesh& nodes, const std::string& source,
-                 bool may_be_open) {
+/// Open edges are holes, or edges that lie on each other without sharing their vertices.
+[[noreturn]] void refuse_open(const TriangleMesh& input, const TriangleMesh& nodes,
+                              const std::string& source) {
+  const OpenEdges open = find_open_edges(nodes);
+  const std::string total = count_text(open.edges.size(), "such edge");
+  const auto matched =
+      std::find_if(open.twin.begin(), open.twin.end(), [](int t) { return t >= 0; });
+  if (matched != open.twin.end()) {
+    const int edge = open.edges[matched - open.twin.begin()];
+    const std::string distance = rounded_text(open.tolerance * (1 + 1e-2), 3);
+    refuse(
+        source,
+        "edges that lie on each other without sharing their vertices: " + edge_text(input, edge) +
+            " has no triangle on its other side, but " + edge_text(input, *matched) +
+            " is in its place",
+        count_text(open.matched, "such edge"),
+        "join vertices up to " + distance + " m apart in the program that the mesh comes from: " +
+            (open.remaining == 0 ? "that closes the surface"
+                                 : "that leaves " + count_text(open.remaining, "open edge")));
+  }
+  const int edge = open.edges.front();
+  const int vertex = vertex_on_edge(nodes, open, edge);
+  const std::string what = "open boundary: " + edge_text(input, edge) + " has no triangle on its ";
+  if (vertex >= 0)
+    refuse(source,
+           what + "other side, and the vertex at " + to_text(nodes.vertices[vertex]) +
+               " lies on it between its ends",
+           total, "split the edges there, so that triangles meet along whole edges");
+  refuse(source, what + "other side", total, "close the holes of the surface");
+}
+
+void check_edges(const TriangleMesh& input, const TriangleMesh& nodes, const std::string& source) {
   Found open, crowded, turned;
   std::size_t crowd = 0;
   const std::vector<HalfEdge> half_edges = sorted_half_edges(nodes.triangles);
@@ -70,10 +101,7 @@ void check_edges(const TriangleMesh& input, const TriangleMesh& nodes, const std
                std::to_string(crowd) + " triangles instead of 2",
            count_text(crowded.count, "such edge"),
            "remove inner and repeated faces, or move touching parts a little apart");
-  if (open.count > 0 && !may_be_open)
-    refuse(source,
-           "open boundary: " + edge_text(input, open.first) + " has no triangle on its other side",
-           count_text(open.count, "such edge"), "close the holes of the surface");
+  if (open.count > 0) refuse_open(input, nodes, source);
   if (turned.count > 0)
     refuse(source,
            "inconsistent orientation: the two triangles at " + edge_text(input, turned.first) +
@@ -143,14 +171,8 @@ void check_elements(const TriangleMesh& input, const std::string& source) {
 void check_closed_manifold(const TriangleMesh& input, const TriangleMesh& nodes,
                            const std::string& source) {
   check_areas(input, nodes, source);
-  check_edges(input, nodes, source, false);
+  check_edges(input, nodes, source);
   check_fans(input, nodes, source);
-}
-
-void check_open_surface(const TriangleMesh& input, const TriangleMesh& nodes,
-                        const std::string& source) {
-  check_areas(input, nodes, source);
-  check_edges(input, nodes, source, true);
 }
 
 void warn_thin_triangles(const TriangleMesh& input, const TriangleMesh& nodes,

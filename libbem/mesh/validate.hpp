@@ -27,10 +27,6 @@ void check_elements(const TriangleMesh& input, const std::string& source);
 void check_closed_manifold(const TriangleMesh& input, const TriangleMesh& nodes,
                            const std::string& source);
 
-/// What makes it a consistently oriented surface that may have boundaries.
-void check_open_surface(const TriangleMesh& input, const TriangleMesh& nodes,
-                        const std::string& source);
-
 /// Adds a warning if the mesh has very thin triangles. O(n).
 void warn_thin_triangles(const TriangleMesh& input, const TriangleMesh& nodes,
                          const std::string& source, std::vector<std::string>& warnings);

@@ -1,31 +1,34 @@
 #include "mesh/weld.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace bem {
+
+std::vector<int> first_at_position(const std::vector<Vec3>& p, std::vector<int> members) {
+  const auto before = [&](int a, int b) {
+    for (int k = 0; k < 3; ++k)
+      if (p[a][k] != p[b][k]) return p[a][k] < p[b][k];
+    return a < b;
+  };
+  std::sort(members.begin(), members.end(), before);
+  std::vector<int> first(p.size(), -1);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const bool repeats = i > 0 && p[members[i]] == p[members[i - 1]];
+    first[members[i]] = repeats ? first[members[i - 1]] : members[i];
+  }
+  return first;
+}
 
 Welded weld(const TriangleMesh& mesh) {
   const std::vector<Vec3>& p = mesh.vertices;
   std::vector<char> used(p.size(), 0);
   for (const Triangle& t : mesh.triangles)
     for (int v : t) used[v] = 1;
-
-  std::vector<int> sorted;
+  std::vector<int> members;
   for (int v = 0; v < static_cast<int>(p.size()); ++v)
-    if (used[v]) sorted.push_back(v);
-  const auto before = [&](int a, int b) {
-    for (int k = 0; k < 3; ++k)
-      if (p[a][k] != p[b][k]) return p[a][k] < p[b][k];
-    return a < b;
-  };
-  std::sort(sorted.begin(), sorted.end(), before);
-
-  // first[v]: the lowest vertex at the position of v.
-  std::vector<int> first(p.size(), -1);
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const bool repeats = i > 0 && p[sorted[i]] == p[sorted[i - 1]];
-    first[sorted[i]] = repeats ? first[sorted[i - 1]] : sorted[i];
-  }
+    if (used[v]) members.push_back(v);
+  const std::vector<int> first = first_at_position(p, std::move(members));
 
   Welded result;
   result.node_of_vertex.assign(p.size(), -1);

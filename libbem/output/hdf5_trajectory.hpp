@@ -2,9 +2,11 @@
 
 #include "base/disk_reserve.hpp"
 #include "base/hdf5.hpp"
+#include "base/hdf5_rows.hpp"
+#include "base/temporary_file.hpp"
 #include "output/frame.hpp"
-#include "output/trajectory_file.hpp"
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +15,6 @@ namespace bem {
 
 /// Name of the trajectory in the output directory.
 inline constexpr const char* kTrajectoryFile = "trajectory.h5";
-
-/// Name of the one that a run goes on from, while its frames are copied.
-inline constexpr const char* kEarlierTrajectory = "trajectory.h5.earlier";
 
 /// Writes OUT_DIR/trajectory.h5:
 ///
@@ -30,32 +29,62 @@ inline constexpr const char* kEarlierTrajectory = "trajectory.h5.earlier";
 ///
 /// Other processes can read the file while it is written, if they open it for that (h5py:
 /// swmr=True); a frame is complete when /time has it. The same way opens a file whose writer was
-/// killed; after close() or the writer's destruction it opens like any other. Room for a frame is
-/// reserved before it is written, so that the frames before it survive a full disk.
+/// killed; after close() or the writer's destruction it opens like any other, also after a failed
+/// write, which takes the file back to the frames before it. Room for frames is reserved before
+/// they are written. The file appears under its name when it can be read.
+///
+/// The library takes a fixed time for every dataset that grows, which is most of the work where
+/// there are many small bodies. There, frames are collected and written together, for two seconds
+/// or ten times as long as writing takes, if that is more. The file's bytes do not depend on it.
 class Hdf5Trajectory : public FrameWriter {
  public:
-  /// Creates the file in an existing directory, overwriting an old one. Throws
-  /// ErrorCode::resources.
-  /// Frames that are kept are copied, O(their size).
+  /// Creates the file in an existing directory, replacing an old one, whose frames that are kept
+  /// are copied, O(their size). Throws ErrorCode::resources.
   Hdf5Trajectory(const std::string& directory, std::vector<TrajectoryBody> bodies,
                  std::size_t kept = 0);
+  ~Hdf5Trajectory() override;
 
-  /// O(vertices); besides its own bytes a frame of a small body rewrites at most 4 KiB.
+  /// O(vertices); besides its own bytes a frame of a small body rewrites at most 4 KiB. Up to 32
+  /// bodies every frame is written at once. Frames that the disk has no room for are forgotten.
   void write(const Frame& frame) override;
+  void sync() override;
   void close() override;
 
+  /// Of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as many.
+  static FileRecords read_records(const std::string& directory,
+                                  const std::vector<TrajectoryBody>& bodies, std::size_t frames);
+
  private:
-  void create_series(const std::string& path, const Hdf5Dims& extents, const char* units);
-  void append(const std::string& path, const double* values);
+  using Clock = std::chrono::steady_clock;
+
+  /// One value or more for every frame. Rows wait here until they are written.
+  struct Series {
+    std::string path;
+    std::size_t width = 1;        ///< numbers in a row
+    std::size_t chunk_rows = 1;   ///< in a piece of the file
+    std::size_t chunk_bytes = 0;  ///< of the pieces that hold one row
+    std::vector<double> rows = {};
+    std::optional<Hdf5Rows> dataset = {};
+  };
+
   void create_contents();
-  void copy_frames(const TrajectoryFile& earlier, std::size_t count);
+  void create_series(const std::string& path, const Hdf5Dims& extents, const char* units);
+  void copy_frames(const Hdf5File& earlier, std::size_t count);
+  bool is_due() const;
+  void flush();
+  void store(std::size_t end);
+  void store_together(std::size_t end);
+  std::size_t bytes_of(std::size_t end) const;
 
   std::vector<TrajectoryBody> bodies_;
-  std::optional<TrajectoryFile> earlier_;  ///< while its frames are copied
+  TemporaryFile temporary_;  ///< until it has its name
   Hdf5File file_;
   DiskReserve reserve_;
-  std::size_t frame_bytes_ = 0;  ///< that a frame adds to the file at most
-  std::size_t frames_ = 0;       ///< written so far
+  std::vector<Series> series_;  ///< the last one is that of the times
+  std::size_t stored_ = 0;      ///< frames in the file
+  std::size_t frames_ = 0;      ///< and those that wait
+  std::size_t row_bytes_ = 0;   ///< of a frame
+  Clock::time_point due_;       ///< when waiting frames are to be written
 };
 
 }  // namespace bem

@@ -1,28 +1,35 @@
 #include "output/obj_sequence.hpp"
 
+#include "base/error.hpp"
 #include "mesh/mesh_io.hpp"
-#include "output/frame_files.hpp"
 
 namespace bem {
 
 ObjSequence::ObjSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
                          std::size_t kept)
-    : folder_(directory + "/" + kObjFolder), bodies_(bodies) {
-  check_bodies(bodies_);
-  create_folder(folder_);
-  if (kept > 0) remove_frames(folder_, kObjExtension, kept);
+    : bodies_((check_bodies(bodies), bodies)), files_(directory, kObjFolder, kObjExtension, kept) {
+  records_ = FrameFiles::no_records(kObjFolder, bodies_, kObjExtension);
   for (const TrajectoryBody& body : bodies_) meshes_.push_back({{}, body.triangles});
 }
 
 void ObjSequence::write(const Frame& frame) {
   check_frame(bodies_, frame);
+  require(frame.index == files_.frames(), "frames are written in their order");
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     meshes_[i].vertices = frame.bodies[i].positions;
-    const std::string path =
-        folder_ + "/" + frame_file_name(bodies_[i].name, frame.index, kObjExtension);
-    write_obj(temporary_name(path), meshes_[i]);
-    publish(path);
+    files_.write(bodies_[i].name, obj_text(meshes_[i]), records_[i]);
   }
+  files_.end_frame();
+}
+
+void ObjSequence::sync() {
+  files_.sync(bodies_);
+}
+
+FileRecords ObjSequence::read_records(const std::string& directory,
+                                      const std::vector<TrajectoryBody>& bodies,
+                                      std::size_t frames) {
+  return FrameFiles::read_records(directory, kObjFolder, bodies, kObjExtension, frames);
 }
 
 }  // namespace bem

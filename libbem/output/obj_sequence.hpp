@@ -2,6 +2,7 @@
 
 #include "mesh/triangle_mesh.hpp"
 #include "output/frame.hpp"
+#include "output/frame_files.hpp"
 
 #include <string>
 #include <vector>
@@ -23,14 +24,18 @@ class ObjSequence : public FrameWriter {
   ObjSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
               std::size_t kept = 0);
 
-  /// Any order of frames is possible; an existing file is overwritten.
   void write(const Frame& frame) override;
+  void sync() override;
   void close() override {}
 
+  /// Of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as many.
+  static FileRecords read_records(const std::string& directory,
+                                  const std::vector<TrajectoryBody>& bodies, std::size_t frames);
+
  private:
-  std::string folder_;
   std::vector<TrajectoryBody> bodies_;
   std::vector<TriangleMesh> meshes_;  ///< by body; the vertices are those of the last frame
+  FrameFiles files_;
 };
 
 }  // namespace bem

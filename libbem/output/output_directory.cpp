@@ -1,7 +1,8 @@
 #include "output/output_directory.hpp"
 
 #include "base/error.hpp"
-#include "base/pending_file.hpp"
+#include "base/file_io.hpp"
+#include "base/temporary_file.hpp"
 #include "output/frame_files.hpp"
 #include "output/hdf5_trajectory.hpp"
 #include "output/obj_sequence.hpp"
@@ -19,32 +20,31 @@ namespace fs = std::filesystem;
 
 /// Is there the cache that a mesh in the folder of caches belongs to? Others are not ours.
 bool belongs_to_cache(fs::path mesh) {
-  if (mesh.extension() == temporary_name("")) mesh.replace_extension();
   std::error_code ignored;
   return mesh.extension() == kPointCacheMeshExtension &&
          fs::exists(mesh.replace_extension(kPointCacheExtension), ignored);
 }
 
 bool is_point_cache_file(const fs::path& path) {
-  const std::string cache = kPointCacheExtension, name = path.filename().string();
-  const auto ends_with = [&](const std::string& end) {
-    return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-  };
-  return ends_with(cache) || ends_with(temporary_name(cache)) || belongs_to_cache(path);
+  return (path.extension() == kPointCacheExtension && path.has_stem()) || belongs_to_cache(path);
 }
 
-/// Where an output format puts its files, and how they are recognised.
+/// Where an output format puts its files, and how they are recognised, by their final names.
 struct FormatFiles {
   const char* folder;  ///< in the output directory; "" is that itself
   bool (*recognise)(const fs::path& path);
 };
 
+fs::path final_path(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return path.parent_path() / TemporaryFile::final_name(name);
+}
+
 constexpr FormatFiles kFormats[] = {
     {"",
      [](const fs::path& path) {
        const std::string name = path.filename().string();
-       return name == kTrajectoryFile || name == kEarlierTrajectory || name == kCheckpointFile ||
-              PendingFile::is_temporary(name, kCheckpointFile);
+       return name == kTrajectoryFile || name == kCheckpointFile;
      }},
     {kObjFolder,
      [](const fs::path& path) {
@@ -53,11 +53,16 @@ constexpr FormatFiles kFormats[] = {
     {kVtpFolder,
      [](const fs::path& path) {
        const std::string name = path.filename().string();
-       return is_frame_file_name(name, kVtpExtension) || name == kPvdFile ||
-              name == temporary_name(kPvdFile);
+       return is_frame_file_name(name, kVtpExtension) || name == kPvdFile;
      }},
     {kPointCacheFolder, is_point_cache_file},
 };
+
+fs::path canonical_folder(const fs::path& path) {
+  std::error_code unknown;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(path, unknown) / "", unknown);
+  return whole.has_filename() ? whole : whole.parent_path();
+}
 
 void remove_file(const std::string& path) {
   std::error_code code;
@@ -86,7 +91,8 @@ std::vector<std::string> find_output(const std::string& directory) {
     std::error_code ended;
     for (fs::directory_iterator it(folder, ended), end; !ended && it != end; it.increment(ended)) {
       std::error_code ignored;
-      if (format.recognise(it->path()) && !fs::is_directory(it->symlink_status(ignored)))
+      if (format.recognise(final_path(it->path())) &&
+          !fs::is_directory(it->symlink_status(ignored)))
         files.push_back(it->path().string());
     }
   }
@@ -94,15 +100,34 @@ std::vector<std::string> find_output(const std::string& directory) {
   return files;
 }
 
-void prepare_output_directory(const std::string& directory, ExistingOutput existing) {
+bool is_output_name(const std::string& directory, const std::string& path) {
+  const fs::path folder = canonical_folder(folder_of(path));
+  return std::any_of(std::begin(kFormats), std::end(kFormats), [&](const FormatFiles& format) {
+    // a mesh may become that of a cache which is not there yet
+    return folder == canonical_folder(fs::path(directory) / format.folder) &&
+           (format.recognise(path) || (folder.filename() == kPointCacheFolder &&
+                                       fs::path(path).extension() == kPointCacheMeshExtension));
+  });
+}
+
+FolderLock create_output_directory(const std::string& directory) {
   std::error_code code;
-  fs::create_directories(directory, code);
+  const bool created = fs::create_directories(directory, code);
   std::error_code unknown;
   if (!fs::is_directory(directory, unknown))
     throw Error(ErrorCode::resources, directory + ": the directory cannot be created" +
                                           (code ? " (" + code.message() + ")" : ""));
-  if (existing == ExistingOutput::keep) return;
+  if (created) check_io(sync_folder(folder_of(directory)), directory);
+  return FolderLock(directory);
+}
+
+void prepare_output_directory(const std::string& directory, ExistingOutput existing) {
   const std::vector<std::string> files = find_output(directory);
+  if (existing == ExistingOutput::keep) {
+    for (const std::string& file : files)
+      if (final_path(file) != file) remove_file(file);
+    return;
+  }
   if (files.empty()) return;
   if (existing == ExistingOutput::refuse) {
     const std::string others =

@@ -1,13 +1,16 @@
 #include "output/point_cache.hpp"
 
 #include "base/error.hpp"
+#include "base/file_io.hpp"
 #include "mesh/mesh_io.hpp"
 #include "output/frame_files.hpp"
 
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <limits>
+
+#include <fcntl.h>
 
 namespace bem {
 namespace {
@@ -33,23 +36,42 @@ std::string sample(const std::vector<Vec3>& positions) {
   return bytes;
 }
 
-/// Cuts an earlier cache.
-GrowingFile open_cache(const std::string& path, std::size_t vertices, std::size_t kept) {
-  std::ifstream file(path, std::ios::binary);
+/// The first samples of a cache, which it must hold.
+FileDescriptor open_samples(const std::string& path, std::size_t vertices, std::size_t count) {
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   std::string found(kHeaderSize, '\0');
-  file.read(found.data(), static_cast<std::streamsize>(found.size()));
+  std::size_t got = 0;
+  const int error = file ? read_fully(file.get(), found.data(), found.size(), 0, got) : errno;
+  if (error == ENOENT) throw Error(ErrorCode::invalid_input, path + ": is missing");
+  check_io(error, path, "cannot be read");
   std::int32_t samples = 0;
   std::memcpy(&samples, found.data() + kSamplesAt, sizeof samples);
-  file.seekg(0, std::ios::end);
-  const auto bytes = static_cast<std::uint64_t>(file.tellg());
-  const std::uint64_t needed = kHeaderSize + kept * vertices * 3 * sizeof(float);
-  if (!file || bytes < needed ||
-      found.compare(0, kSamplesAt, header(vertices), 0, kSamplesAt) != 0 ||
-      samples < static_cast<std::int32_t>(kept))
-    throw Error(ErrorCode::resources, path + ": does not hold the frames to go on from");
+  if (found.compare(0, kSamplesAt, header(vertices), 0, kSamplesAt) != 0 ||
+      samples < static_cast<std::int32_t>(count))
+    throw Error(ErrorCode::invalid_input, path + ": does not hold the frames to go on from");
+  return file;
+}
+
+/// Adds the first samples of a cache to its record.
+void add_samples(const std::string& path, std::size_t vertices, std::size_t count,
+                 FileRecord& record) {
+  const FileDescriptor file = open_samples(path, vertices, count);
+  std::string bytes(vertices * 3 * sizeof(float), '\0');
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t got = 0;
+    check_io(
+        read_fully(file.get(), bytes.data(), bytes.size(), kHeaderSize + i * bytes.size(), got),
+        path, "cannot be read");
+    record.add(std::string_view(bytes).substr(0, got));
+  }
+}
+
+/// Cuts an earlier cache.
+GrowingFile open_cache(const std::string& path, std::size_t vertices, std::size_t kept) {
+  open_samples(path, vertices, kept);
   GrowingFile cache(path);
   cache.write(kSamplesAt, bytes_of(static_cast<std::int32_t>(kept)));
-  cache.truncate(needed);
+  cache.truncate(kHeaderSize + kept * vertices * 3 * sizeof(float));
   return cache;
 }
 
@@ -66,6 +88,7 @@ PointCache::PointCache(const std::string& directory, const std::vector<Trajector
       folder_(directory + "/" + kPointCacheFolder),
       frames_(kept) {
   create_folder(folder_);
+  records_ = read_records(directory, bodies_, 0);
   for (const TrajectoryBody& body : bodies_) {
     const std::string path = folder_ + "/" + body.name + kPointCacheExtension;
     files_.push_back(kept > 0 ? open_cache(path, body.vertices, kept)
@@ -73,15 +96,15 @@ PointCache::PointCache(const std::string& directory, const std::vector<Trajector
   }
 }
 
-void PointCache::write_meshes(const Frame& first) const {
+void PointCache::write_meshes(const Frame& first) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyFrame& start = first.bodies[i];
     TriangleMesh mesh{{}, bodies_[i].triangles};
     for (const Vec3& x : bodies_[i].rest)
       mesh.vertices.push_back(start.translation + start.rotation * x);
-    const std::string path = folder_ + "/" + bodies_[i].name + kPointCacheMeshExtension;
-    write_obj(temporary_name(path), mesh);
-    publish(path);
+    const std::string text = obj_text(mesh);
+    publish(folder_ + "/" + bodies_[i].name + kPointCacheMeshExtension, text);
+    records_[2 * i + 1].add(text);
   }
 }
 
@@ -94,8 +117,35 @@ void PointCache::write(const Frame& frame) {
     const std::string bytes = sample(frame.bodies[i].positions);
     files_[i].write(kHeaderSize + frames_ * bytes.size(), bytes);
     files_[i].write(kSamplesAt, bytes_of(static_cast<std::int32_t>(frames_ + 1)));
+    records_[2 * i].add(bytes);
   }
   ++frames_;
+}
+
+void PointCache::sync() {
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    files_[i].sync();
+    const std::string mesh = folder_ + "/" + bodies_[i].name + kPointCacheMeshExtension;
+    if (frames_ > 0) check_io(sync_file(mesh), mesh);
+  }
+  check_io(sync_folder(folder_), folder_);
+}
+
+/// Two for each body: its cache, and the mesh.
+FileRecords PointCache::read_records(const std::string& directory,
+                                     const std::vector<TrajectoryBody>& bodies,
+                                     std::size_t frames) {
+  FileRecords records;
+  for (const TrajectoryBody& body : bodies) {
+    const std::string name = std::string(kPointCacheFolder) + "/" + body.name;
+    records.push_back({name + kPointCacheExtension, 0, {}});
+    records.push_back({name + kPointCacheMeshExtension, 0, {}});
+    if (frames == 0) continue;
+    add_samples(directory + "/" + name + kPointCacheExtension, body.vertices, frames,
+                *(records.end() - 2));
+    records.back().add(file_contents(directory + "/" + records.back().name));
+  }
+  return records;
 }
 
 void PointCache::close() {

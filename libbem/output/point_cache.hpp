@@ -31,10 +31,15 @@ class PointCache : public FrameWriter {
              std::size_t kept = 0);
 
   void write(const Frame& frame) override;
+  void sync() override;
   void close() override;
 
+  /// Of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as many.
+  static FileRecords read_records(const std::string& directory,
+                                  const std::vector<TrajectoryBody>& bodies, std::size_t frames);
+
  private:
-  void write_meshes(const Frame& first) const;
+  void write_meshes(const Frame& first);
 
   std::vector<TrajectoryBody> bodies_;
   std::string folder_;

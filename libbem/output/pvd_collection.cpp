@@ -1,12 +1,9 @@
 #include "output/pvd_collection.hpp"
 
 #include "base/error.hpp"
+#include "base/pending_file.hpp"
 #include "mesh/describe.hpp"
 #include "output/frame_files.hpp"
-
-#include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace bem {
 namespace {
@@ -18,23 +15,31 @@ constexpr std::string_view kHead =
 constexpr std::string_view kEntry = "<DataSet ";
 constexpr std::string_view kTail = "</Collection>\n</VTKFile>\n";
 
-/// The file up to the end of some of its entries, one of which is a line.
-std::string start_of(const std::string& path, std::size_t entries) {
-  std::string start(kHead);
-  if (entries == 0) return start;
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const bool ours = text.compare(0, kHead.size(), kHead) == 0;
-  std::size_t end = kHead.size();
-  for (; ours && entries > 0 && text.compare(end, kEntry.size(), kEntry) == 0; --entries)
-    end = std::min(text.find('\n', end), text.size() - 1) + 1;
-  if (entries > 0)
-    throw Error(ErrorCode::resources, path + ": does not list the frames to go on from");
-  return text.substr(0, end);
+/// Where each of the first entries ends, one of which is a line; before them where they begin.
+std::vector<std::size_t> entry_ends(const std::string& path, const std::string& text,
+                                    std::size_t entries) {
+  std::vector<std::size_t> ends{kHead.size()};
+  bool ours = text.compare(0, kHead.size(), kHead) == 0;
+  while (ours && ends.size() <= entries) {
+    const std::size_t newline = text.find('\n', ends.back());
+    ours = text.compare(ends.back(), kEntry.size(), kEntry) == 0 && newline != std::string::npos;
+    ends.push_back(newline + 1);
+  }
+  if (!ours)
+    throw Error(ErrorCode::invalid_input, path + ": does not list the frames to go on from");
+  return ends;
 }
 
+/// The file up to the end of some of its entries.
+std::string start_of(const std::string& path, std::size_t entries) {
+  if (entries == 0) return std::string(kHead);
+  const std::string text = file_contents(path);
+  return text.substr(0, entry_ends(path, text, entries).back());
+}
+
+/// One that replaces another is on the disk first: a checkpoint may count on it.
 GrowingFile create(const std::string& path, const std::string& contents) {
-  publish(path, contents);
+  PendingFile(path).commit(contents);
   return GrowingFile(path);
 }
 
@@ -46,7 +51,7 @@ PvdCollection::PvdCollection(const std::string& path, std::size_t kept)
 PvdCollection::PvdCollection(const std::string& path, const std::string& start)
     : end_(start.size()), file_(create(path, start + std::string(kTail))) {}
 
-void PvdCollection::add(double time, const std::vector<Entry>& parts) {
+std::string PvdCollection::add(double time, const std::vector<Entry>& parts) {
   std::string text;
   for (std::size_t i = 0; i < parts.size(); ++i)
     text += std::string(kEntry) + "timestep=\"" + to_text(time) + "\" part=\"" + std::to_string(i) +
@@ -54,6 +59,19 @@ void PvdCollection::add(double time, const std::vector<Entry>& parts) {
             "\"/>\n";
   file_.write(end_, text + std::string(kTail));
   end_ += text.size();
+  return text;
+}
+
+std::vector<std::string> PvdCollection::read(const std::string& path, std::size_t times,
+                                             std::size_t parts) {
+  const std::string text = file_contents(path);
+  const std::vector<std::size_t> ends = entry_ends(path, text, times * parts);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < times; ++i) {
+    const std::size_t begin = ends[i * parts], end = ends[(i + 1) * parts];
+    texts.push_back(text.substr(begin, end - begin));
+  }
+  return texts;
 }
 
 std::string xml_text(std::string_view text) {

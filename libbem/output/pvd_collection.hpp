@@ -15,16 +15,24 @@ namespace bem {
 class PvdCollection {
  public:
   /// Creates the file without entries, replacing an existing one, of which `kept` entries stay.
-  /// Throws ErrorCode::resources, also if there are not as many.
+  /// Throws ErrorCode::resources, ErrorCode::invalid_input if there are not as many.
   explicit PvdCollection(const std::string& path, std::size_t kept = 0);
 
   struct Entry {
     std::string file;  ///< relative to the folder of the collection
     std::string name;  ///< of the part
   };
-  /// Adds the parts 0, 1, ... of a time [s]. Throws ErrorCode::resources.
-  void add(double time, const std::vector<Entry>& parts);
+  /// Adds the parts 0, 1, ... of a time [s]; returns the text for them. Throws
+  /// ErrorCode::resources.
+  std::string add(double time, const std::vector<Entry>& parts);
+  /// Waits until the entries are on the disk. Throws ErrorCode::resources.
+  void sync() { file_.sync(); }
   void close() { file_.close(); }
+
+  /// The texts for the first times in a file, of `parts` entries each. Throws
+  /// ErrorCode::invalid_input if there are not as many.
+  static std::vector<std::string> read(const std::string& path, std::size_t times,
+                                       std::size_t parts);
 
  private:
   PvdCollection(const std::string& path, const std::string& start);

@@ -2,7 +2,6 @@
 
 #include "base/error.hpp"
 #include "mesh/describe.hpp"
-#include "output/frame_files.hpp"
 
 #include <cstdint>
 
@@ -11,12 +10,6 @@ namespace {
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double), "vectors are stored without gaps");
 static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t), "triangles are stored without gaps");
-
-std::string folder_of(const std::string& directory) {
-  std::string folder = directory + "/" + kVtpFolder;
-  create_folder(folder);
-  return folder;
-}
 
 /// The numbers behind the XML: each array after its length in bytes, found by its offset.
 class AppendedData {
@@ -60,14 +53,12 @@ std::vector<std::int32_t> triangle_ends(std::size_t triangles) {
 VtpSequence::VtpSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
                          std::size_t kept)
     : bodies_((check_bodies(bodies), check_rest(bodies), bodies)),
-      folder_(folder_of(directory)),
-      list_(folder_ + "/" + kPvdFile, kept * bodies.size()),
-      frames_(kept) {
-  if (kept > 0) remove_frames(folder_, kVtpExtension, kept);
+      files_(directory, kVtpFolder, kVtpExtension, kept),
+      list_(files_.folder() + "/" + kPvdFile, kept * bodies.size()) {
+  records_ = read_records(directory, bodies_, 0);
 }
 
-std::string VtpSequence::file_contents(std::size_t body, const BodyFrame& state,
-                                       double time) const {
+std::string VtpSequence::contents_of(std::size_t body, const BodyFrame& state, double time) const {
   const TrajectoryBody& b = bodies_[body];
   AppendedData data;
   std::string xml =
@@ -96,16 +87,34 @@ std::string VtpSequence::file_contents(std::size_t body, const BodyFrame& state,
 
 void VtpSequence::write(const Frame& frame) {
   check_frame(bodies_, frame);
-  require(frame.index == frames_, "frames are written in their order");
+  require(frame.index == files_.frames(), "frames are written in their order");
   std::vector<PvdCollection::Entry> parts;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const std::string& name = bodies_[i].name;
-    parts.push_back({frame_file_name(name, frame.index, kVtpExtension), name});
-    publish(folder_ + "/" + parts.back().file, file_contents(i, frame.bodies[i], frame.time));
+    parts.push_back(
+        {files_.write(name, contents_of(i, frame.bodies[i], frame.time), records_[i]), name});
   }
   // Only then the list: what it names is there.
-  list_.add(frame.time, parts);
-  ++frames_;
+  records_.back().add(list_.add(frame.time, parts));
+  files_.end_frame();
+}
+
+void VtpSequence::sync() {
+  files_.sync(bodies_);
+  list_.sync();
+}
+
+FileRecords VtpSequence::read_records(const std::string& directory,
+                                      const std::vector<TrajectoryBody>& bodies,
+                                      std::size_t frames) {
+  FileRecords records =
+      FrameFiles::read_records(directory, kVtpFolder, bodies, kVtpExtension, frames);
+  records.push_back({std::string(kVtpFolder) + "/" + kPvdFile, 0, {}});
+  if (frames == 0) return records;
+  const std::string path = directory + "/" + records.back().name;
+  for (const std::string& text : PvdCollection::read(path, frames, bodies.size()))
+    records.back().add(text);
+  return records;
 }
 
 }  // namespace bem

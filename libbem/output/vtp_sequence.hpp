@@ -1,6 +1,7 @@
 #pragma once
 
 #include "output/frame.hpp"
+#include "output/frame_files.hpp"
 #include "output/pvd_collection.hpp"
 
 #include <string>
@@ -30,15 +31,19 @@ class VtpSequence : public FrameWriter {
               std::size_t kept = 0);
 
   void write(const Frame& frame) override;
+  void sync() override;
   void close() override { list_.close(); }
 
+  /// Of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as many.
+  static FileRecords read_records(const std::string& directory,
+                                  const std::vector<TrajectoryBody>& bodies, std::size_t frames);
+
  private:
-  std::string file_contents(std::size_t body, const BodyFrame& state, double time) const;
+  std::string contents_of(std::size_t body, const BodyFrame& state, double time) const;
 
   std::vector<TrajectoryBody> bodies_;
-  std::string folder_;
+  FrameFiles files_;
   PvdCollection list_;
-  std::size_t frames_;  ///< written so far
 };
 
 }  // namespace bem

@@ -16,20 +16,28 @@ PlaneObstacle read_plane(const JsonValue& value) {
   return plane;
 }
 
-std::size_t body_named(const JsonValue& value, const std::vector<BodySpec>& bodies) {
+/// One factor for all axes, or three.
+Vec3 read_scale(const JsonValue& value) {
+  if (value.kind() == JsonKind::number) return Vec3::Constant(value.positive());
+  if (value.kind() != JsonKind::array) throw value.unexpected("a number > 0, or three of them");
+  const Vec3 scale = value.vec3();
+  if (!(scale.array() > 0).all()) throw value.error("expected three numbers > 0");
+  return scale;
+}
+
+std::size_t body_named(const JsonValue& value, const BodyNames& bodies) {
   const std::string name = value.text();
+  const auto match = bodies.find(name);
+  if (match != bodies.end()) return match->second;
   std::vector<std::string> names;
   names.reserve(bodies.size());
-  for (const BodySpec& body : bodies) names.push_back(body.name);
-  const auto match = std::find(names.begin(), names.end(), name);
-  if (match != names.end()) return static_cast<std::size_t>(match - names.begin());
+  for (const auto& [known, index] : bodies) names.push_back(known);
   const std::string nearest = nearest_name(name, names);
   throw value.error("expected the name of a body of this scene, found " + in_quotes(name) +
                     (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?"));
 }
 
-JointEnd read_joint_end(const JsonValue& value, JointType type,
-                        const std::vector<BodySpec>& bodies) {
+JointEnd read_joint_end(const JsonValue& value, JointType type, const BodyNames& bodies) {
   JsonReader reader(value, "a side of a joint");
   JointEnd end;
   end.location = value.location();
@@ -64,12 +72,14 @@ ObstacleSpec read_obstacle(const JsonValue& value) {
   obstacle.name = read_name(reader.required("name"));
   if (reader.required_one_of({"plane", "mesh"}) == "plane") {
     obstacle.shape = read_plane(reader.required("plane"));
-    for (const char* key : {"position", "motion"})
+    for (const char* key : {"scale", "position", "rotation", "motion"})
       reader.refuse(key, "is allowed only beside \"mesh\"");
   } else {
     MeshObstacle mesh;
     mesh.mesh = read_path(reader.required("mesh"));
+    if (const auto scale = reader.optional("scale")) mesh.scale = read_scale(*scale);
     if (const auto position = reader.optional("position")) mesh.position = position->vec3();
+    if (const auto rotation = reader.optional("rotation")) mesh.rotation = read_rotation(*rotation);
     if (const auto motion = reader.optional("motion")) mesh.motion = read_motion(*motion);
     obstacle.shape = mesh;
   }
@@ -79,7 +89,7 @@ ObstacleSpec read_obstacle(const JsonValue& value) {
   return obstacle;
 }
 
-JointSpec read_joint(const JsonValue& value, const std::vector<BodySpec>& bodies) {
+JointSpec read_joint(const JsonValue& value, const BodyNames& bodies) {
   JsonReader reader(value, "a joint");
   JointSpec joint;
   joint.location = value.location();

@@ -55,6 +55,16 @@ RigidMotion motion_at(const Motion& motion, double t) {
           linear(a.translate, b.translate, s)};
 }
 
+std::vector<Vec3> placed_at(const MeshObstacle& obstacle, const std::vector<Vec3>& points,
+                            double t) {
+  const RigidMotion motion = motion_at(obstacle.motion, t);
+  const Mat3 rotation = obstacle.rotation.matrix();
+  std::vector<Vec3> out;
+  out.reserve(points.size());
+  for (const Vec3& x : points) out.push_back(motion.apply(obstacle.position + rotation * x));
+  return out;
+}
+
 double profile_value(const Profile& profile, double t) {
   if (profile.empty()) return 1;
   if (t <= profile.front().time) return profile.front().factor;

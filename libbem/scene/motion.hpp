@@ -24,6 +24,10 @@ struct RigidMotion {
 /// to 1.
 RigidMotion motion_at(const Motion& motion, double t);
 
+/// Where points of an obstacle's scaled mesh are at time `t` [s], in world coordinates [m].
+std::vector<Vec3> placed_at(const MeshObstacle& obstacle, const std::vector<Vec3>& points,
+                            double t);
+
 /// Rotation by the fraction `s` in [0, 1] of the way from `a` to `b`, as described for motion_at.
 Mat3 interpolated_rotation(const AxisAngle& a, const AxisAngle& b, double s);
 

@@ -15,10 +15,12 @@ struct PlaneObstacle {
   Vec3 normal = Vec3::UnitY();  ///< unit vector, out of the obstacle
 };
 
-/// A rigid closed surface.
+/// A rigid surface: any set of triangles. Before the motion, world = position + rotation * scale x.
 struct MeshObstacle {
   FilePath mesh;
+  Vec3 scale = Vec3::Ones();     ///< of the mesh's coordinates, all > 0
   Vec3 position = Vec3::Zero();  ///< of the mesh's origin [m]
+  AxisAngle rotation;
   Motion motion;
 };
 

@@ -54,9 +54,12 @@ Scene scene_from(const JsonDocument& document) {
       scene.obstacles.push_back(read_obstacle(obstacle));
       names.add(JsonReader(obstacle, "an obstacle").required("name"));
     }
-  if (const auto joints = reader.optional("joints"))
+  if (const auto joints = reader.optional("joints")) {
+    BodyNames bodies;
+    for (const BodySpec& body : scene.bodies) bodies.emplace(body.name, bodies.size());
     for (const JsonValue& joint : joints->items(0, "array of joints"))
-      scene.joints.push_back(read_joint(joint, scene.bodies));
+      scene.joints.push_back(read_joint(joint, bodies));
+  }
   if (const auto contact = reader.optional("contact")) scene.contact = read_contact(*contact);
   if (const auto output = reader.optional("output")) scene.output = read_output(*output);
   reader.finish();

@@ -3,6 +3,7 @@
 #include "scene/json_reader.hpp"
 #include "scene/scene.hpp"
 
+#include <map>
 #include <string>
 
 // The pieces of parse_scene(). Each reads one JSON value of the scene file and throws
@@ -32,9 +33,12 @@ Motion read_motion(const JsonValue& value);
 /// [[time, factor], ...] with increasing times.
 Profile read_profile(const JsonValue& value);
 
+/// Where a body of some name is in the scene's list.
+using BodyNames = std::map<std::string, std::size_t>;
+
 BodySpec read_body(const JsonValue& value);
 ObstacleSpec read_obstacle(const JsonValue& value);
-JointSpec read_joint(const JsonValue& value, const std::vector<BodySpec>& bodies);
+JointSpec read_joint(const JsonValue& value, const BodyNames& bodies);
 ContactSpec read_contact(const JsonValue& value);
 OutputSpec read_output(const JsonValue& value);
 

@@ -29,6 +29,13 @@ const std::string& scene_schema() {
     },
     "path": {"description": "Path of a file, relative to the scene file.", "type": "string", "minLength": 1, "pattern": "^[^\\u0000]+$"},
     "friction": {"description": "Coefficient of friction; default 0.", "type": "number", "minimum": 0},
+    "scale": {
+      "description": "Factor of the mesh's coordinates, one for all axes or one for each; default 1.",
+      "oneOf": [
+        {"type": "number", "exclusiveMinimum": 0},
+        {"type": "array", "items": {"type": "number", "exclusiveMinimum": 0}, "minItems": 3, "maxItems": 3}
+      ]
+    },
     "rotation": {
       "description": "Rotation about an axis through the origin.",
       "type": "object", "required": ["axis", "angle_deg"], "additionalProperties": false,
@@ -142,8 +149,10 @@ const std::string& scene_schema() {
           "type": "object", "required": ["name", "mesh"], "additionalProperties": false,
           "properties": {
             "name": {"$ref": "#/$defs/name"},
-            "mesh": {"description": "Closed triangle mesh.", "$ref": "#/$defs/path"},
+            "mesh": {"description": "Any set of triangles: closed parts are solid, both sides of all others hold.", "$ref": "#/$defs/path"},
+            "scale": {"$ref": "#/$defs/scale"},
             "position": {"description": "World position of the mesh's origin [m]; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
+            "rotation": {"description": "Initial orientation; default none.", "$ref": "#/$defs/rotation"},
             "motion": {"$ref": "#/$defs/motion"},
             "friction": {"$ref": "#/$defs/friction"}
           }

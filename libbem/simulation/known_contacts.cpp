@@ -38,7 +38,7 @@ KnownContacts::Finding KnownContacts::judge(const std::vector<ContactPair>& foun
                                             double least_gap) {
   Finding out;
   for (const ContactPair& pair : found) {
-    out.broken = out.broken || pair.contact.gap_end < least_gap;
+    if (pair.contact.gap_end < least_gap) out.broken.push_back(pair.contact.key);
     out.deepest = std::max(out.deepest, -pair.contact.gap_end);
   }
   return out;

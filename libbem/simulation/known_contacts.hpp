@@ -13,8 +13,8 @@ class KnownContacts {
 
   /// What a detection finds at the end of a motion.
   struct Finding {
-    bool broken = false;  ///< some gap is below what was asked for
-    double deepest = 0;   ///< largest penetration [m]
+    std::vector<ContactKey> broken;  ///< whose gap is below what was asked for
+    double deepest = 0;              ///< largest penetration [m]
   };
   static Finding judge(const std::vector<ContactPair>& found, double least_gap);
 

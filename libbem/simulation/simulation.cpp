@@ -124,11 +124,11 @@ Simulation::Simulation(const Scene& scene, ModelSource& source) : scene_(scene) 
   std::vector<ObstacleMesh> obstacles;
   for (const ObstacleSpec& o : scene_.obstacles)
     if (const auto* mesh = std::get_if<MeshObstacle>(&o.shape))
-      obstacles.push_back({&o, source.obstacle(mesh->mesh)});
+      obstacles.push_back({&o, source.obstacle(*mesh)});
   std::vector<std::pair<int, int>> joined;
   for (const JointSpec& j : scene_.joints)
     if (j.b) joined.emplace_back(static_cast<int>(j.a.body), static_cast<int>(j.b->body));
-  collisions_.emplace(scene_, bodies_, std::move(obstacles), joined);
+  collisions_.emplace(scene_, bodies_, obstacles, joined);
   overlaps_ = collisions_->overlaps();
 }
 
@@ -272,7 +272,7 @@ void Simulation::start_contacts(bool friction) {
 /// Adds contacts until the motion that they lead to breaks no others. The best motion met goes to
 /// `best`.
 bool Simulation::find_contacts(bool friction, Attempt& best) {
-  constexpr int kMostPasses = 12, kAllViewsFrom = 4;
+  constexpr int kMostPasses = 12, kMostPassesInfeasible = 3, kAllViewsFrom = 4;
   constexpr double kInexactness = 0.02;  // of the penetration
   constexpr double kExact = 0.1;         // of the tolerance: errors of all steps add up to a creep
   const double tolerance = scene_.contact.tolerance;
@@ -281,16 +281,19 @@ bool Simulation::find_contacts(bool friction, Attempt& best) {
     const std::vector<ContactPair> found = timed([&] { return collisions_->detect(bodies_); });
     const double allowed = std::max(tolerance, penetration_allowed(pass) * collisions_->smallest());
     const KnownContacts::Finding now = KnownContacts::judge(found, -allowed);
-    statistics_.contacts_complete = !now.broken;
+    statistics_.contacts_complete = now.broken.empty();
     statistics_.penetration = now.deepest;
     statistics_.contacts_met = statistics_.contacts_met && friction;
     if (now.deepest < best.penetration) {
-      best = {now.deepest, statistics_, constraints_->solution()};
+      best = {now.deepest, statistics_, constraints_->solution(), now.broken};
     }
-    if (!now.broken && (exact || statistics_.contact_residual <= kExact * tolerance)) return true;
-    if (pass == kMostPasses) return false;
-    if (now.broken) contacts_.take(found, {-tolerance, -allowed, pass >= kAllViewsFrom, friction});
-    exact = !now.broken;
+    if (now.broken.empty() && (exact || statistics_.contact_residual <= kExact * tolerance))
+      return true;
+    const bool hopeless = statistics_.infeasible && pass >= kMostPassesInfeasible;
+    if (pass == kMostPasses || hopeless || statistics_.exhausted) return false;
+    if (!now.broken.empty())
+      contacts_.take(found, {-tolerance, -allowed, pass >= kAllViewsFrom, friction});
+    exact = now.broken.empty();
     solve_contacts(exact ? 0 : kInexactness * now.deepest);
   }
 }
@@ -300,9 +303,11 @@ bool Simulation::find_contacts(bool friction, Attempt& best) {
 void Simulation::collide() {
   constexpr double kDeep = 5e-4;  // of the smallest body
   Attempt best;
+  broken_.clear();
   start_contacts(true);
   if (find_contacts(true, best)) return;
-  if (best.penetration > kDeep * collisions_->smallest()) {
+  const bool hopeless = best.statistics.infeasible || statistics_.exhausted;
+  if (best.penetration > kDeep * collisions_->smallest() && !hopeless) {
     start_contacts(false);
     if (find_contacts(false, best)) {
       contacts_.restore_friction();
@@ -316,6 +321,7 @@ void Simulation::collide() {
   statistics_.sweeps = last.sweeps;
   statistics_.newton_steps = last.newton_steps;
   constraints_->restore(best.solution);
+  broken_ = std::move(best.broken);
 }
 
 Vec3 Simulation::total_momentum() const {
@@ -346,9 +352,10 @@ void Simulation::end_step() {
   momentum_.angular_end = total_angular_momentum();
 }
 
-/// Contacts are found anew in every step.
+/// Contacts are found anew in every step, but for broken ones.
 void Simulation::visit_state(StateArchive& state) {
   state(steps_, statistics_, momentum_, times_);
+  state.resizable(broken_);
   for (Body& body : bodies_) {
     state(body);
     state.check(body.frame().step() == steps_);
@@ -359,7 +366,7 @@ void Simulation::visit_state(StateArchive& state) {
 void Simulation::step() {
   const double start = now();
   constraints_->begin_step(time(), scene_.time_step);
-  if (collisions_) collisions_->begin_step(time(), scene_.time_step);
+  if (collisions_) collisions_->begin_step(time(), scene_.time_step, broken_);
   begin_step();
   const double solve = now();
   statistics_ = constraints_->solve({});

@@ -26,8 +26,8 @@ class ModelSource {
   virtual std::shared_ptr<const BodyModel> model(const FilePath& archive) = 0;
   /// Traction columns of some nodes, ascending.
   virtual TractionData tractions(const FilePath& archive, const std::vector<int>& nodes) = 0;
-  /// The mesh of an obstacle: welded triangles, open or closed.
-  virtual TriangleMesh obstacle(const FilePath& mesh) = 0;
+  /// The surface of an obstacle in its mesh's coordinates times its scale.
+  virtual const ObstacleSurface& obstacle(const MeshObstacle& obstacle) = 0;
 };
 
 /// A scene in motion. Bit-identical for any number of threads.
@@ -74,6 +74,7 @@ class Simulation {
     double penetration = std::numeric_limits<double>::infinity();  ///< [m]
     ConstraintStatistics statistics;
     ConstraintSolver::Solution solution;
+    std::vector<ContactKey> broken;  ///< contacts that it breaks
   };
   template <class Detect>
   std::vector<ContactPair> timed(const Detect& detect);
@@ -93,6 +94,7 @@ class Simulation {
   std::optional<CollisionScene> collisions_;
   std::vector<CollisionScene::Overlap> overlaps_;
   KnownContacts contacts_;
+  std::vector<ContactKey> broken_;  ///< contacts that the last step has left broken
   ConstraintStatistics statistics_;
   MomentumBalance momentum_;
   PhaseTimes times_;

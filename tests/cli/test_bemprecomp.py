@@ -16,7 +16,7 @@ INPUTS = ["rubber.json", "sphere.obj"]
 # how many there are. What is no mesh file at all is refused at its first bad line.
 BAD_MESHES = {
     "inconsistent_orientation": r": inconsistent orientation: .* edge 0-2 of triangle 0 .* 3 such edges in all",
-    "index_out_of_range": r":7: index out of range: triangle 1 .* 2 such triangles in all",
+    "index_out_of_range": r":7: index out of range: face 1 .* 2 such faces in all",
     "no_triangle": r": no triangle at all",
     "nonfinite": r":3: non-finite coordinate: vertex 1 .* 2 such vertices in all",
     "nonmanifold_edge": r": non-manifold edge: edge 1-0 of triangle 0 .* 4 triangles .* 1 such edge in all",
@@ -69,14 +69,13 @@ class Inputs(CliCase):
 
     def test_mesh_warnings_do_not_stop(self):
         sphere = (self.folder / "sphere.obj").read_text()
-        count = len(re.findall(r"^v ", sphere, flags=re.M))
-        shifted = re.sub(r"^v (\S+)", lambda m: f"v {float(m[1]) + 0.15}", sphere, flags=re.M)
-        faces = re.sub(r"\d+", lambda m: str(int(m[0]) + count), shifted[shifted.index("\nf "):])
+        pierced = re.sub(r"^v (\S+) (\S+) (\S+)", lambda m: "v " + " ".join(str(-1.5 * float(x)) for x in m.groups()),
+                         sphere, count=1, flags=re.M)
         run_shape = [BEMSHAPE, "box", "--divisions", "1", "1", "1", "--size", "1", "1"]
         subprocess.run([*run_shape, "0.005", "-o", self.folder / "thin.obj"], check=True)
         meshes = {
             "inward": (re.sub(r"^f (\d+) (\d+) (\d+)$", r"f \1 \3 \2", sphere, flags=re.M), "outward"),
-            "crossing": (shifted[:shifted.index("\nf ")] + "\n" + sphere + faces, "the surface intersects itself: 16 pairs"),
+            "crossing": (pierced, "the surface intersects itself: [0-9]+ pairs"),
             "thin": ((self.folder / "thin.obj").read_text(), "very thin triangles .* 8 triangles, first triangle 0"),
         }
         for name, (text, message) in meshes.items():
@@ -86,7 +85,7 @@ class Inputs(CliCase):
                 lines = self.precompute("-q", "--force", "--window", "1").stderr.splitlines()
                 about_mesh = [line for line in lines if line.startswith("warning: sphere.obj: ")]
                 self.assertRegex(about_mesh[-1], message)
-                self.assertEqual(len(about_mesh), 2 if name == "crossing" else 1, lines)
+                self.assertEqual(len(about_mesh), 1, lines)
                 self.run_tool("--verify", "a.bem")
 
 

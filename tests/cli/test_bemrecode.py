@@ -47,7 +47,7 @@ class Recode(CliCase):
         self.precompute("--codec", "none", output="dense.bem")
         for arguments, code, part in [
                 (["dense.bem"], 2, "-o"), (["dense.bem", "-o", "compressed.bem"], 2, "--force"),
-                (["dense.bem", "-o", "dense.bem", "--force"], 2, "is the input"),
+                (["dense.bem", "-o", "dense.bem", "--force"], 2, "is an input"),
                 (["dense.bem", "-o", "b.bem", "--codec", "zip"], 2, "zip"),
                 (["dense.bem", "-o", "b.bem", "--compression-ratio", "4"], 2, "--codec haar"),
                 (["dense.bem", "-o", "b.bem", "--codec-tol", "1"], 2, "1e-06"),

@@ -13,8 +13,8 @@ class MemorySource : public bem::ModelSource {
   void add(const std::string& name, bem::BodyModel model) {
     models_[name] = std::make_shared<bem::BodyModel>(std::move(model));
   }
-  void add_obstacle(const std::string& name, bem::TriangleMesh mesh) {
-    obstacles_[name] = std::move(mesh);
+  void add_obstacle(const std::string& name, const bem::TriangleMesh& mesh) {
+    obstacles_[name] = bem::make_obstacle_surface(mesh, name);
   }
   std::shared_ptr<const bem::BodyModel> model(const bem::FilePath& archive) override {
     return models_.at(archive.resolved);
@@ -23,13 +23,13 @@ class MemorySource : public bem::ModelSource {
                               const std::vector<int>& nodes) override {
     return bem::extract_tractions(*models_.at(archive.resolved), nodes);
   }
-  bem::TriangleMesh obstacle(const bem::FilePath& mesh) override {
-    return obstacles_.at(mesh.resolved);
+  const bem::ObstacleSurface& obstacle(const bem::MeshObstacle& obstacle) override {
+    return obstacles_.at(obstacle.mesh.resolved);
   }
 
  private:
   std::map<std::string, std::shared_ptr<const bem::BodyModel>> models_;
-  std::map<std::string, bem::TriangleMesh> obstacles_;
+  std::map<std::string, bem::ObstacleSurface> obstacles_;
 };
 
 /// A scene with one body "b" of archive "b".

@@ -35,12 +35,11 @@ class SceneSource : public MemorySource {
   TractionData tractions(const FilePath& archive, const std::vector<int>& nodes) override {
     return extract_tractions(*model(archive), nodes);
   }
-  TriangleMesh obstacle(const FilePath& path) override {
-    const std::string name = std::filesystem::path(path.resolved).stem();
-    if (name == "bowl") return bowl(0.5, 0.05, 48);
-    if (name == "plate") return box(Vec3(0.8, 0.02, 0.6), {8, 1, 6});
-    REQUIRE(name == "thin-plate");
-    return box(Vec3(0.005, 0.6, 0.6), {1, 12, 12});
+  const ObstacleSurface& obstacle(const MeshObstacle& obstacle) override {
+    const std::string name = std::filesystem::path(obstacle.mesh.resolved).stem();
+    const auto [entry, fresh] = obstacles_.try_emplace(name, ObstacleSurface());
+    if (fresh) entry->second = make_obstacle_surface(obstacle_mesh(name), name);
+    return entry->second;
   }
 
  private:
@@ -57,6 +56,12 @@ class SceneSource : public MemorySource {
     REQUIRE(name == "fish");
     return fish(0.3, 20);  // 322 vertices: thin enough fins to be hard
   }
+  static TriangleMesh obstacle_mesh(const std::string& name) {
+    if (name == "bowl") return bowl(0.5, 0.05, 48);
+    if (name == "plate") return box(Vec3(0.8, 0.02, 0.6), {8, 1, 6});
+    REQUIRE(name == "thin-plate");
+    return box(Vec3(0.005, 0.6, 0.6), {1, 12, 12});
+  }
   static Material material_of(const std::string& name) {
     if (name == "bunny") return material(3000, 1e6, 0.3);
     if (name == "bullet" || name == "sheet") return material(1000, 3e8, 0.3);
@@ -70,6 +75,7 @@ class SceneSource : public MemorySource {
 
   double time_step_;
   std::map<std::string, std::shared_ptr<const BodyModel>> models_;
+  std::map<std::string, ObstacleSurface> obstacles_;
 };
 
 Scene shipped_scene(const std::string& name) {
@@ -83,7 +89,7 @@ class SceneRun {
     simulation_.emplace(scene_, source_);
     for (const ObstacleSpec& o : scene_.obstacles) {
       const auto* shape = std::get_if<MeshObstacle>(&o.shape);
-      obstacles_.push_back(shape ? source_.obstacle(shape->mesh) : TriangleMesh());
+      obstacles_.push_back(shape ? source_.obstacle(*shape).solid : TriangleMesh());
     }
     size_ = 1e300;
     for (const Body& b : bodies()) {
@@ -134,9 +140,8 @@ class SceneRun {
         continue;
       }
       const auto& shape = std::get<MeshObstacle>(scene_.obstacles[o].shape);
-      std::vector<Vec3> places = obstacles_[o].vertices;
-      for (Vec3& v : places)
-        v = motion_at(shape.motion, simulation_->time()).apply(v + shape.position);
+      const std::vector<Vec3> places =
+          placed_at(shape, obstacles_[o].vertices, simulation_->time());
       inside(positions_[a], box, obstacles_[o].triangles, places);
       inside(places, bounding_box(places), triangles(a), positions_[a]);
     }

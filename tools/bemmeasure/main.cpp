@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "common/cli.hpp"
 #include "common/command_line.hpp"
+#include "common/file_roles.hpp"
 #include "measure.hpp"
 #include "scene/scene_json.hpp"
 
@@ -28,6 +29,15 @@ int run(int argc, char** argv) {
   if (!bem::parse_command_line(app, argc, argv, "one scene and one trajectory are enough"))
     return 0;
   const bem::Scene scene = bem::read_scene(scene_file);
+  bem::FileRoles files;
+  files.reads(scene_file);
+  files.reads(trajectory_file);
+  for (const bem::BodySpec& body : scene.bodies) files.reads(body.archive.resolved);
+  for (const bem::ObstacleSpec& obstacle : scene.obstacles)
+    if (const auto* mesh = std::get_if<bem::MeshObstacle>(&obstacle.shape))
+      files.reads(mesh->mesh.resolved);
+  files.writes(options.series);
+  files.check();
   const bem::Trajectory trajectory(trajectory_file, scene);
   std::cout << bem::measure(scene, trajectory, options).dump(2) << "\n" << std::flush;
   return 0;

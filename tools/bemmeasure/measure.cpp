@@ -1,16 +1,19 @@
 #include "measure.hpp"
 
+#include "base/pending_file.hpp"
 #include "contact/self_penetration.hpp"
+#include "contact/surface_overlap.hpp"
 #include "mesh/extent.hpp"
 #include "mesh/mass_properties.hpp"
 #include "mesh/mesh_io.hpp"
-#include "mesh/surface.hpp"
+#include "mesh/obstacle_surface.hpp"
 #include "scene/motion.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
+#include <optional>
 #include <set>
+#include <sstream>
 
 namespace bem {
 namespace {
@@ -19,10 +22,6 @@ using Json = nlohmann::ordered_json;
 
 Json vector_json(const Vec3& v) {
   return {v[0], v[1], v[2]};
-}
-
-bool overlap(const BoundingBox& a, const BoundingBox& b) {
-  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
 }
 
 /// Kinetic energy per mass [J/kg] of a body whose velocities are linear in space: the best such
@@ -57,15 +56,16 @@ class Measurement {
       : scene_(scene), trajectory_(trajectory), self_(options.self) {
     for (const ObstacleSpec& o : scene.obstacles) {
       const auto* shape = std::get_if<MeshObstacle>(&o.shape);
-      obstacles_.push_back(shape ? make_open_surface(read_mesh(shape->mesh.resolved), o.name)
-                                 : TriangleMesh());
+      obstacles_.push_back(
+          shape
+              ? make_obstacle_surface(scaled(read_mesh(shape->mesh.resolved), shape->scale), o.name)
+              : ObstacleSurface());
     }
     for (const JointSpec& joint : scene.joints)
       if (joint.b) joined_.insert(std::minmax(joint.a.body, joint.b->body));
     records_.resize(scene.bodies.size());
     if (!options.series.empty()) {
-      series_.open(options.series);
-      if (!series_) throw Error(ErrorCode::resources, options.series + ": cannot be written");
+      series_file_.emplace(options.series);
       series_ << "time,body,x,y,z,vx,vy,vz,fastest,kinetic_energy,potential_energy,penetration\n";
       series_.precision(10);
     }
@@ -73,6 +73,7 @@ class Measurement {
 
   Json run() {
     for (std::size_t k = 0; k < trajectory_.times().size(); ++k) frame(k);
+    if (series_file_) series_file_->commit(series_.str());
     Json bodies = Json::array();
     for (std::size_t b = 0; b < records_.size(); ++b) {
       const BodyRecord& r = records_[b];
@@ -139,16 +140,29 @@ class Measurement {
                     deepest_penetration(b.vertices, a.triangles, a.vertices).depth);
   }
 
+  /// A sheet has no inside that a body could be in.
+  static double sheet_in_body(const TriangleMesh& sheet, const TriangleMesh& body) {
+    return surface_overlap(SignedDistance(sheet.triangles, sheet.vertices),
+                           SignedDistance(body.triangles, body.vertices), 0);
+  }
+
   double in_obstacle(const TriangleMesh& body, const BoundingBox& box, std::size_t o,
                      double time) const {
     const auto& shape = scene_.obstacles[o].shape;
     if (const auto* plane = std::get_if<PlaneObstacle>(&shape))
       return deepest_penetration(body.vertices, CollisionPlane{plane->point, plane->normal}).depth;
     const auto& spec = std::get<MeshObstacle>(shape);
-    const RigidMotion motion = motion_at(spec.motion, time);
-    TriangleMesh moved = obstacles_[o];
-    for (Vec3& v : moved.vertices) v = motion.apply(v + spec.position);
-    return overlap(box, bounding_box(moved.vertices)) ? mutual(body, moved) : 0;
+    const auto place = [&](TriangleMesh mesh) {
+      mesh.vertices = placed_at(spec, mesh.vertices, time);
+      return mesh;
+    };
+    const TriangleMesh solid = place(obstacles_[o].solid),
+                       sheet = place(obstacles_[o].sheet.layers);
+    double depth = 0;
+    if (overlap(box, bounding_box(solid.vertices))) depth = mutual(body, solid);
+    if (overlap(box, bounding_box(sheet.vertices)))
+      depth = std::max(depth, sheet_in_body(sheet, body));
+    return depth;
   }
 
   void record(const std::vector<std::size_t>& bodies, const std::string& names, double depth,
@@ -180,7 +194,7 @@ class Measurement {
     }
     r.velocity = (r.end - mass_properties(previous_[b], 1).centre) / dt;
     r.energy = kinetic_energy(body, velocities);
-    if (!series_.is_open()) return;
+    if (!series_file_) return;
     series_ << trajectory_.times()[k] << "," << scene_.bodies[b].name;
     for (double x : {r.end[0], r.end[1], r.end[2], r.velocity[0], r.velocity[1], r.velocity[2],
                      r.last_speed, r.energy, -scene_.gravity.dot(r.end), frame_depth_[b]})
@@ -191,14 +205,15 @@ class Measurement {
   const Scene& scene_;
   const Trajectory& trajectory_;
   bool self_;
-  std::vector<TriangleMesh> obstacles_;  ///< as read; empty for planes
+  std::vector<ObstacleSurface> obstacles_;  ///< empty for planes
   std::set<std::pair<std::size_t, std::size_t>> joined_;
   std::vector<BodyRecord> records_;
   std::vector<TriangleMesh> previous_;
   std::vector<double> frame_depth_;     ///< by body
   std::map<std::string, Worst> worst_;  ///< by pair
   Worst deepest_;
-  std::ofstream series_;
+  std::optional<PendingFile> series_file_;
+  std::ostringstream series_;
 };
 
 }  // namespace

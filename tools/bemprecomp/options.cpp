@@ -3,13 +3,13 @@
 #include "base/error.hpp"
 #include "common/cli.hpp"
 #include "common/command_line.hpp"
+#include "common/file_roles.hpp"
 #include "kernels/scheme.hpp"
 #include "mesh/describe.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <string_view>
 
@@ -208,15 +208,13 @@ void check_inputs(const Options& o) {
   number_in("--quadrature-tol", o.quadrature_tolerance, 1e-11, 0.1);
 }
 
-/// An output must not destroy an input.
 void check_distinct_files(const Options& o) {
-  std::vector<std::string> inputs = o.archives;
-  inputs.insert(inputs.end(), {o.mesh, o.material, o.loads});
-  std::error_code ignored;
-  for (const std::string& written : {o.output, o.stats, o.log_file})
-    for (const std::string& read : inputs)
-      if (!written.empty() && std::filesystem::equivalent(written, read, ignored))
-        refuse(written + ": is an input and cannot be an output as well");
+  FileRoles files;
+  for (const std::string& path : o.archives) files.reads(path);
+  for (const std::string& path : {o.mesh, o.material}) files.reads(path);
+  if (o.loads != "all" && o.loads != "none") files.reads(o.loads);
+  for (const std::string& path : {o.output, o.stats, o.log_file}) files.writes(path);
+  files.check();
 }
 
 Options checked(const CLI::App& app, Typed& t) {

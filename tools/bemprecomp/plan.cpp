@@ -10,6 +10,7 @@
 #include "dynamics/selection.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
+#include "mesh/solids.hpp"
 #include "model/memory_estimate.hpp"
 #include "scene/material_json.hpp"
 #include "scene/selection_json.hpp"
@@ -36,6 +37,7 @@ BodyGeometry read_body(const Options& o, double density, std::vector<std::string
   if (o.mesh_scale != 1)
     for (Vec3& v : mesh.vertices) v *= o.mesh_scale;
   Surface surface = make_surface(std::move(mesh), o.mesh);
+  check_single_solid(surface, o.mesh);
   warnings = surface.warnings;
   BodyGeometry geometry = make_geometry(surface, density);
   geometry.corner_angle_deg = o.corner_angle_deg;

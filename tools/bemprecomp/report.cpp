@@ -3,6 +3,7 @@
 #include "archive/archive_layout.hpp"
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
+#include "mesh/describe.hpp"
 
 #include <filesystem>
 #include <iomanip>
@@ -29,11 +30,15 @@ Json material_json(const Material& m) {
 
 Json body_json(const BodyGeometry& g) {
   const Vec3& c = g.mass.centre;
+  const BoundingBox box = bounding_box(g.input.vertices);
   Json json = {{"nodes", g.nodes.vertices.size()},
                {"triangles", g.nodes.triangles.size()},
                {"volume", g.mass.volume},
                {"mass", g.mass.mass},
                {"centre_of_mass", {c[0], c[1], c[2]}},
+               {"bounding_box",
+                {{"min", {box.min[0], box.min[1], box.min[2]}},
+                 {"max", {box.max[0], box.max[1], box.max[2]}}}},
                {"extent", g.extent}};
   if (g.corner_angle_deg) json["corner_angle_deg"] = *g.corner_angle_deg;
   return json;
@@ -104,6 +109,8 @@ class Table {
 void print_body(Table& table, const BodyGeometry& g, const Material& m) {
   table.line("mesh", g.input.vertices.size(), " vertices, ", g.input.triangles.size(),
              " triangles, ", g.nodes.vertices.size(), " nodes");
+  const BoundingBox box = bounding_box(g.input.vertices);
+  table.line("mesh box", to_text(box.min), " to ", to_text(box.max), " m");
   table.line("body", "extent ", g.extent, " m, volume ", g.mass.volume, " m^3, mass ", g.mass.mass,
              " kg");
   if (g.corner_angle_deg)

@@ -6,11 +6,11 @@
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
 #include "common/command_line.hpp"
+#include "common/file_roles.hpp"
 #include "compare.hpp"
 #include "mesh/describe.hpp"
 #include "recode.hpp"
 
-#include <filesystem>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -28,9 +28,10 @@ struct Options {
 
 void check(const Options& o) {
   const auto refuse = [](const std::string& text) { throw Error(ErrorCode::usage, text); };
-  std::error_code ignored;
-  if (std::filesystem::equivalent(o.input, o.output, ignored))
-    refuse(o.output + ": is the input and cannot be the output as well");
+  FileRoles files;
+  files.reads(o.input);
+  files.writes(o.output);
+  files.check();
   if (o.output.empty() == o.compared.empty())
     refuse("name either the archive to write, -o OUT.bem, or tolerances to --compare codecs at");
   if (o.codec != "haar" && o.codec != "lowrank")

@@ -1,9 +1,11 @@
-/// bemshape: writes a closed test body as an OBJ file.
+/// bemshape: writes a closed test body as an OBJ file, or changes a mesh.
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "common/cli.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/shapes.hpp"
+#include "split.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -43,13 +45,16 @@ using Generator = std::function<bem::TriangleMesh(const Options&)>;
 
 class CommandLine {
  public:
-  CommandLine()
-      : app_("Writes a closed test body as an OBJ file (lengths in metres).", "bemshape") {
+  explicit CommandLine(bem::Log& log)
+      : log_(log),
+        app_("Writes a closed test body as an OBJ file (lengths in metres), or changes a mesh.",
+             "bemshape") {
     app_.require_subcommand(1);
     app_.set_version_flag("--version", bem::version_text());
     app_.option_defaults()->always_capture_default();
     add_round_shapes();
     add_box_shapes();
+    add_split();
   }
 
   int run(int argc, char** argv) {
@@ -59,7 +64,7 @@ class CommandLine {
       if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app_.exit(e);
       throw bem::Error(bem::ErrorCode::usage, message_of(e) + "; run with --help for the options");
     }
-    bem::write_obj(options_.output, generator_(options_));
+    action_();
     return 0;
   }
 
@@ -69,7 +74,7 @@ class CommandLine {
     std::string shapes;
     for (const CLI::App* shape : app_.get_subcommands(nullptr))
       shapes += (shapes.empty() ? "" : ", ") + shape->get_name();
-    return "name a shape first, one of " + shapes;
+    return "name a shape or an action first, one of " + shapes;
   }
 
   CLI::App& add_shape(const std::string& name, const std::string& help,
@@ -79,8 +84,21 @@ class CommandLine {
     shape
         .add_option("-o,--output", options_.output, "OBJ file to write (overwritten if it exists)")
         ->required();
-    shape.callback([this, generator] { generator_ = generator; });
+    shape.callback([this, generator] {
+      action_ = [this, generator] { bem::write_obj(options_.output, generator(options_)); };
+    });
     return shape;
+  }
+
+  void add_split() {
+    CLI::App& split =
+        *app_.add_subcommand("split", "writes the separate solids of a mesh as files of their own");
+    split.add_option("mesh", split_.input, "mesh file to read")->required();
+    split
+        .add_option("-o,--output", split_.pattern,
+                    "OBJ files to write (overwritten if they exist); %d becomes 0, 1, ...")
+        ->required();
+    split.callback([this] { action_ = [this] { bem::split_mesh(split_, log_); }; });
   }
 
   void add_subdivisions(CLI::App& shape) {
@@ -158,14 +176,18 @@ class CommandLine {
     tetrahedron.add_option("--seed", options_.seed, "which one");
   }
 
+  bem::Log& log_;
   CLI::App app_;
   Options options_;
-  Generator generator_;
+  bem::SplitOptions split_;
+  std::function<void()> action_;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
   bem::Log log;
-  return bem::run_tool(log, [&] { return CommandLine().run(argc, argv); });
+  bem::catch_interrupts();
+  bem::set_interruption_check(bem::check_interrupt);
+  return bem::run_tool(log, [&] { return CommandLine(log).run(argc, argv); });
 }

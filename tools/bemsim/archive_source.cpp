@@ -2,7 +2,6 @@
 
 #include "base/error.hpp"
 #include "mesh/mesh_io.hpp"
-#include "mesh/surface.hpp"
 #include "scene/location.hpp"
 
 namespace bem {
@@ -38,8 +37,15 @@ TractionData ArchiveSource::tractions(const FilePath& path, const std::vector<in
   return at_place(path, [&] { return archive.load_tractions(nodes, progress_); });
 }
 
-TriangleMesh ArchiveSource::obstacle(const FilePath& path) {
-  return at_place(path, [&] { return make_open_surface(read_mesh(path.resolved), path.resolved); });
+const ObstacleSurface& ArchiveSource::obstacle(const MeshObstacle& obstacle) {
+  const std::string& path = obstacle.mesh.resolved;
+  const Vec3& scale = obstacle.scale;
+  const auto [entry, fresh] =
+      obstacles_.try_emplace({path, {scale[0], scale[1], scale[2]}}, ObstacleSurface());
+  if (fresh)
+    entry->second = at_place(
+        obstacle.mesh, [&] { return make_obstacle_surface(scaled(read_mesh(path), scale), path); });
+  return entry->second;
 }
 
 }  // namespace bem

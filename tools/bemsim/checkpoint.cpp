@@ -2,14 +2,12 @@
 
 #include "archive/digest.hpp"
 #include "base/error.hpp"
-#include "base/file_descriptor.hpp"
+#include "base/file_io.hpp"
 #include "common/cli.hpp"
 #include "mesh/describe.hpp"
 #include "output/output_directory.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
@@ -19,8 +17,8 @@ namespace {
 
 /// The scene's JSON with its keys in a fixed order and the output as the command line has it.
 std::string scene_text(const Plan& plan, const Options& options) {
-  std::ifstream file(options.scene);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  check_io(read_all(options.scene, text), options.scene, "cannot be read again");
   nlohmann::json scene = nlohmann::json::parse(text, nullptr, false);
   if (!scene.is_object())
     throw Error(ErrorCode::invalid_input,

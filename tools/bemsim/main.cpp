@@ -4,43 +4,48 @@
 #include "base/interruption.hpp"
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
+#include "common/file_roles.hpp"
 #include "options.hpp"
 #include "plan.hpp"
 #include "run.hpp"
 #include "scene/scene_json.hpp"
 #include "scene/schema.hpp"
 
-#include <filesystem>
 #include <iostream>
 
 namespace {
 
 using bem::Options;
 
-/// An output must not destroy an input.
-void check_distinct(const Options& options, const std::string& input) {
-  std::error_code ignored;
-  for (const std::string& output : {options.stats, options.log_file})
-    if (!output.empty() && std::filesystem::equivalent(output, input, ignored))
-      throw bem::Error(bem::ErrorCode::usage,
-                       output + ": is an input and cannot be an output as well");
+/// Checks that no output destroys an input, of which the scene may name some.
+void check_files(const Options& options, const bem::Scene* scene) {
+  bem::FileRoles files;
+  files.reads(options.scene);
+  if (scene) {
+    for (const bem::BodySpec& body : scene->bodies) files.reads(body.archive.resolved);
+    for (const bem::ObstacleSpec& obstacle : scene->obstacles)
+      if (const auto* mesh = std::get_if<bem::MeshObstacle>(&obstacle.shape))
+        files.reads(mesh->mesh.resolved);
+  }
+  files.writes(options.stats);
+  files.writes(options.log_file);
+  if (options.action == Options::Action::simulate) files.writes_below(options.output);
+  files.check();
 }
 
-/// Reads the scene and opens the log file, which must be none of the scene's archives.
+/// Reads the scene and opens the log file. While the scene is unknown any file may be an input:
+/// then only a log replaces a file that is there.
 bem::Scene read_inputs(const Options& options, bem::Log& log) {
-  check_distinct(options, options.scene);
-  const auto open_log = [&] {
-    if (!options.log_file.empty()) log.open_file(options.log_file);
-  };
+  check_files(options, nullptr);
   bem::Scene scene;
   try {
     scene = bem::read_scene(options.scene);
   } catch (const bem::Error&) {
-    open_log();
+    if (bem::Log::is_log(options.log_file)) log.open_file(options.log_file);
     throw;
   }
-  for (const bem::BodySpec& body : scene.bodies) check_distinct(options, body.archive.resolved);
-  open_log();
+  check_files(options, &scene);
+  if (!options.log_file.empty()) log.open_file(options.log_file);
   return scene;
 }
 
@@ -65,7 +70,10 @@ int run(int argc, char** argv, bem::Log& log) {
   });
   const auto plan = bem::make_plan(*options, std::move(scene), source);
   for (const std::string& warning : plan->warnings) log.warning(warning);
-  if (options->action == Options::Action::check) bem::print_plan(std::cout, *plan);
+  if (options->action == Options::Action::check)
+    bem::print_plan(std::cout, *plan);
+  else
+    for (const std::string& note : plan->notes) log.info(note);
   bem::check_memory(*plan);
   if (options->action == Options::Action::check) return 0;
   return bem::run_simulation(*plan, source, *options, log);

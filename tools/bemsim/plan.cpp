@@ -6,6 +6,7 @@
 #include "contact/joints.hpp"
 #include "dynamics/selection.hpp"
 #include "mesh/describe.hpp"
+#include "scene/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +51,18 @@ PlannedBody plan_body(const Scene& scene, const BodySpec& spec, ArchiveSource& s
   return body;
 }
 
+/// Reads the meshes of the obstacles.
+void plan_obstacles(Plan& plan, ArchiveSource& source) {
+  std::set<const ObstacleSurface*> seen;
+  for (const ObstacleSpec& spec : plan.scene.obstacles) {
+    const auto* mesh = std::get_if<MeshObstacle>(&spec.shape);
+    plan.obstacles.push_back({&spec, mesh ? &source.obstacle(*mesh) : nullptr});
+    if (!mesh || !seen.insert(plan.obstacles.back().surface).second) continue;
+    for (const std::string& warning : plan.obstacles.back().surface->warnings)
+      plan.warnings.push_back(where(spec.location) + ": " + warning);
+  }
+}
+
 /// Matrices and columns of inputs are shared by the bodies of an archive, histories are not.
 double memory_of(const std::vector<PlannedBody>& bodies, bool contact) {
   double bytes = 0;
@@ -81,6 +94,13 @@ bool spins_fast(const PlannedBody& body) {
   if (!body.spec->has_centrifugal() || body.archive->kind() == ModelKind::rigid) return false;
   const double speed = body.spec->angular_velocity.norm() * body.archive->geometry().extent;
   return speed > kFast * body.archive->discretisation().material.shear_speed();
+}
+
+/// "left" and "right" joins 25 vertices.
+std::string weld_text(const Plan& plan, const WeldPlan& weld) {
+  const auto name = [&](std::size_t body) { return in_quotes(plan.scene.bodies[body].name); };
+  return name(weld.spec->a.body) + " and " + name(weld.spec->b->body) + " joins " +
+         count_text(weld.joined, "vertex");
 }
 
 void add_warnings(Plan& plan) {
@@ -116,8 +136,28 @@ void add_warnings(Plan& plan) {
   }
 }
 
+void describe_welds(Plan& plan) {
+  for (const WeldPlan& weld : plan.welds) {
+    plan.notes.push_back("weld of " + weld_text(plan, weld));
+    const std::string place = where(weld.spec->location) + ": the weld of " + weld_text(plan, weld);
+    if (weld.nearly > 0)
+      plan.warnings.push_back(place + "; " + nearly_text(weld) +
+                              ": raise its \"tolerance\" to join them, or move them apart");
+    if (weld.alone > 0)
+      plan.warnings.push_back(place + "; " + count_text(weld.alone, "vertex") + " of one surface " +
+                              (weld.alone == 1 ? "lies" : "lie") +
+                              " on the other where it has no vertex, and " +
+                              (weld.alone == 1 ? "stays" : "stay") +
+                              " free: give both surfaces the same vertices there");
+  }
+}
+
 std::string vector_text(const Vec3& v, const char* unit) {
   return to_text(v) + " " + unit;
+}
+
+std::string box_text(const BoundingBox& box) {
+  return to_text(box.min) + " to " + to_text(box.max);
 }
 
 void print_body(std::ostream& out, const PlannedBody& body, const Vec3& gravity) {
@@ -141,6 +181,11 @@ void print_body(std::ostream& out, const PlannedBody& body, const Vec3& gravity)
   if (!spec.angular_velocity.isZero(0))
     out << ", angular velocity " << vector_text(spec.angular_velocity, "rad/s");
   out << "\n";
+  std::vector<Vec3> placed;
+  for (const Vec3& x : mesh.vertices)
+    placed.emplace_back(spec.position + spec.rotation.matrix() * x);
+  out << "  mesh coordinates " << box_text(bounding_box(mesh.vertices)) << " m\n"
+      << "  placed at        " << box_text(bounding_box(placed)) << " m\n";
   if (body.fixed > 0) out << "  fixed: " << count_text(body.fixed, "vertex") << "\n";
   if (body.handled > 0)
     out << "  handles: " << spec.handles.size() << " with " << count_text(body.handled, "vertex")
@@ -148,6 +193,26 @@ void print_body(std::ostream& out, const PlannedBody& body, const Vec3& gravity)
   for (std::size_t i = 0; i < body.loaded.size(); ++i)
     out << "  load: " << (spec.tractions[i].is_pressure() ? "pressure" : "traction") << " on "
         << count_text(body.loaded[i], "triangle") << "\n";
+}
+
+void print_obstacle(std::ostream& out, const PlannedObstacle& obstacle) {
+  out << "obstacle " << in_quotes(obstacle.spec->name) << ": ";
+  const auto* mesh = std::get_if<MeshObstacle>(&obstacle.spec->shape);
+  if (!mesh) {
+    const auto& plane = std::get<PlaneObstacle>(obstacle.spec->shape);
+    out << "plane through " << to_text(plane.point) << " m with normal " << to_text(plane.normal)
+        << "\n";
+    return;
+  }
+  const std::size_t solid = obstacle.surface->solid.triangles.size();
+  const std::size_t sheet = obstacle.surface->sheet_triangles();
+  if (solid > 0) out << "solid of " << count_text(solid, "triangle");
+  if (solid > 0 && sheet > 0) out << ", ";
+  if (sheet > 0) out << "sheet of " << count_text(sheet, "triangle") << " that holds on both sides";
+  std::vector<Vec3> points = obstacle.surface->solid.vertices;
+  const std::vector<Vec3>& more = obstacle.surface->sheet.layers.vertices;
+  points.insert(points.end(), more.begin(), more.end());
+  out << "\n  placed at        " << box_text(bounding_box(placed_at(*mesh, points, 0))) << " m\n";
 }
 
 }  // namespace
@@ -166,12 +231,24 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
     deformable.push_back(
         body.archive->kind() == ModelKind::rigid ? nullptr : &body.archive->discretisation());
   body_schemes(plan->scene, deformable);
-  for (const Joint& joint : plan_joints(plan->scene, geometries).joints)
+  JointPlan joints = plan_joints(plan->scene, geometries);
+  for (const Joint& joint : joints.joints)
     if (joint.prescribed)
       ++(joint.handle ? plan->bodies[joint.a.body].handled : plan->bodies[joint.a.body].fixed);
+  plan->welds = std::move(joints.welds);
+  if (plan->scene.contact.enabled) plan_obstacles(*plan, source);
   plan->memory = memory_of(plan->bodies, plan->scene.contact.enabled);
   add_warnings(*plan);
+  describe_welds(*plan);
+  plan->twists = find_twists(plan->scene, static_cast<double>(plan->steps) * plan->scene.time_step);
+  for (const Twist& twist : plan->twists) plan->warnings.push_back(twist_text(plan->scene, twist));
   return plan;
+}
+
+std::string Plan::impossible(double time) const {
+  for (const Twist& twist : twists)
+    if (time >= twist.since) return short_twist_text(scene, twist);
+  return "";
 }
 
 void check_memory(const Plan& plan) {
@@ -206,7 +283,9 @@ void print_plan(std::ostream& out, const Plan& plan) {
     out << "contact: " << count_text(scene.obstacles.size(), "obstacle")
         << (scene.contact.self ? ", and of bodies with themselves" : "") << "\n";
   if (!scene.joints.empty()) out << "joints:  " << scene.joints.size() << "\n";
+  for (const std::string& note : plan.notes) out << "  " << note << "\n";
   for (const PlannedBody& body : plan.bodies) print_body(out, body, scene.gravity);
+  for (const PlannedObstacle& obstacle : plan.obstacles) print_obstacle(out, obstacle);
 }
 
 }  // namespace bem

@@ -3,6 +3,7 @@
 #include "archive_source.hpp"
 #include "frame_schedule.hpp"
 #include "options.hpp"
+#include "twist.hpp"
 
 #include <iosfwd>
 #include <memory>
@@ -19,19 +20,30 @@ struct PlannedBody {
   std::vector<std::size_t> loaded;     ///< triangles by load
 };
 
+/// An obstacle, and what its mesh holds with; a plane has none.
+struct PlannedObstacle {
+  const ObstacleSpec* spec;
+  const ObstacleSurface* surface;
+};
+
 /// A run that has been checked but for the contents of the matrices.
 struct Plan {
   Scene scene;  ///< with the changes of the command line
   long steps = 0;
   FrameSchedule schedule = FrameSchedule::every_steps(1);
-  std::vector<PlannedBody> bodies;  ///< refer to `scene`
-  double memory = 0;                ///< matrices, columns and history [bytes], about
-  std::vector<std::string> warnings;
+  std::vector<PlannedBody> bodies;         ///< refer to `scene`
+  std::vector<PlannedObstacle> obstacles;  ///< where contact is enabled
+  std::vector<WeldPlan> welds;
+  std::vector<Twist> twists;
+  double memory = 0;  ///< matrices, columns and history [bytes], about
+  std::vector<std::string> warnings, notes;
 
   Plan() = default;
   Plan(const Plan&) = delete;
   Plan& operator=(const Plan&) = delete;
 
+  /// What bodies are asked to do at a time [s] that no body can; empty if there is nothing.
+  std::string impossible(double time) const;
   long frames() const { return schedule.count(steps); }
 };
 

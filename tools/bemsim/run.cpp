@@ -5,12 +5,9 @@
 #include "base/pending_file.hpp"
 #include "checkpoint.hpp"
 #include "mesh/describe.hpp"
-#include "output/hdf5_trajectory.hpp"
-#include "output/obj_sequence.hpp"
 #include "output/output_directory.hpp"
-#include "output/point_cache.hpp"
-#include "output/vtp_sequence.hpp"
 #include "stats.hpp"
+#include "writers.hpp"
 
 #include <algorithm>
 
@@ -18,43 +15,6 @@
 
 namespace bem {
 namespace {
-
-using Writers = std::vector<std::unique_ptr<FrameWriter>>;
-
-bool writes_tractions(const Scene& scene) {
-  const auto& fields = scene.output.fields;
-  return std::find(fields.begin(), fields.end(), OutputField::tractions) != fields.end();
-}
-
-std::unique_ptr<FrameWriter> make_writer(OutputFormat format, const std::string& directory,
-                                         const std::vector<TrajectoryBody>& bodies,
-                                         std::size_t kept) {
-  switch (format) {
-    case OutputFormat::hdf5:
-      return std::make_unique<Hdf5Trajectory>(directory, bodies, kept);
-    case OutputFormat::obj:
-      return std::make_unique<ObjSequence>(directory, bodies, kept);
-    case OutputFormat::vtp:
-      return std::make_unique<VtpSequence>(directory, bodies, kept);
-    case OutputFormat::pc2:
-      return std::make_unique<PointCache>(directory, bodies, kept);
-  }
-  throw Error(ErrorCode::internal, "no writer for the format " + format_name(format));
-}
-
-/// `kept`: frames of an earlier run that stay.
-Writers make_writers(const Plan& plan, const std::string& directory, std::size_t kept) {
-  std::vector<TrajectoryBody> bodies;
-  for (const PlannedBody& body : plan.bodies) {
-    const TriangleMesh& mesh = body.archive->geometry().input;
-    bodies.push_back({body.spec->name, mesh.vertices.size(), mesh.triangles,
-                      writes_tractions(plan.scene), mesh.vertices});
-  }
-  Writers writers;
-  for (OutputFormat format : plan.scene.output.formats)
-    writers.push_back(make_writer(format, directory, bodies, kept));
-  return writers;
-}
 
 /// The frame is that of the mesh coordinates: without displacements a vertex with mesh coordinates
 /// x is at translation + rotation * x.
@@ -101,12 +61,12 @@ class Run {
                 " of matrices from " + count_text(simulation_->archives(), "archive"));
     for (const CollisionScene::Overlap& o : simulation_->overlaps())
       log_.warning(in_quotes(o.a) + " and " + in_quotes(o.b) + " overlap at the start, by " +
-                   to_text(o.depth) + " m; move them apart");
+                   rounded_text(o.depth, 3) + " m; move them apart");
     if (earlier) restore(*earlier);
     prepare_output_directory(options.output, options.resume  ? ExistingOutput::keep
                                              : options.force ? ExistingOutput::replace
                                                              : ExistingOutput::refuse);
-    writers_ = make_writers(plan, options.output, static_cast<std::size_t>(statistics_.frames()));
+    writers_ = std::make_unique<Writers>(plan, options.output, kept_frames(), kept_);
   }
 
   /// Steps to the end, a failure or an interruption, and completes the files in each case.
@@ -116,7 +76,7 @@ class Run {
     } catch (const Interrupted& e) {
       save_early();
       finish_early("interrupted");
-      throw Interrupted(e.signal(), "; " + progress());
+      throw Interrupted(e.signal(), (abandoned_ ? " within a step; " : "; ") + progress());
     } catch (const Error& e) {
       finish_early("failed");
       throw Error(e.code(), std::string(e.what()) + "; " + progress());
@@ -127,7 +87,7 @@ class Run {
 
  private:
   void advance() {
-    set_interruption_check(nullptr);  // a step that has begun is finished
+    set_interruption_check(check_overdue_interrupt);  // a step that has begun may end
     if (statistics_.frames() == 0) write_frame();
     while (simulation_->steps() < plan_.steps) {
       check_interrupt();
@@ -147,36 +107,46 @@ class Run {
   void step() {
     try {
       simulation_->step();
+    } catch (const Interrupted&) {
+      abandoned_ = true;
+      throw;
     } catch (const Error& e) {
       if (e.code() != ErrorCode::numerical || simulation_->statistics().converged()) throw;
+      const std::string impossible = plan_.impossible(simulation_->time());
       throw Error(e.code(),
-                  std::string(e.what()) +
-                      ": the constraints of the step were not met, use a shorter time step");
+                  std::string(e.what()) + ": the constraints of the step were not met, " +
+                      (impossible.empty() ? "use a shorter time step" : "because " + impossible));
     }
   }
 
   void restore(StateReader& earlier) {
+    earlier.resizable(kept_);
     earlier(statistics_, timer_, *simulation_);
     earlier.finish();
     earlier.check(simulation_->steps() == saved_ && saved_ >= 0 &&
                   statistics_.frames() == plan_.schedule.count(saved_));
+    check_output_records(plan_, options_.output, kept_frames(), kept_);
     log_.info("going on from t = " + to_text(simulation_->time()) + " s: " + progress());
     timer_.begin(kLoadingPhase);
   }
 
-  /// After the frames of the state, so that they are there when it is.
+  std::size_t kept_frames() const { return static_cast<std::size_t>(statistics_.frames()); }
+
+  /// After the frames of the state, which are on the disk when it is.
   void save() {
     const long steps = simulation_->steps();
     if (steps == saved_) return;
     timer_.begin(kCheckpointPhase);
-    save_checkpoint(options_.output, identity_, steps, statistics_, timer_, *simulation_);
+    OutputRecords records = writers_->sync();
+    save_checkpoint(options_.output, identity_, steps, records, statistics_, timer_, *simulation_);
     saved_ = steps;
   }
 
-  /// Without a checkpoint the last one is still there.
+  /// Without a checkpoint the last one is still there. A step that was abandoned leaves no state to
+  /// save.
   void save_early() {
     try {
-      if (options_.checkpoint_every > 0) save();
+      if (options_.checkpoint_every > 0 && !abandoned_) save();
     } catch (const Error& e) {
       log_.warning(e.what());
     }
@@ -193,14 +163,14 @@ class Run {
       frame.bodies.push_back(frame_of(*plan_.bodies[i].spec, body, writes_tractions(plan_.scene)));
       check_finite(body, frame.bodies.back(), frame.time);
     }
-    for (const auto& writer : writers_) writer->write(frame);
+    writers_->write(frame);
     statistics_.record_frame();
   }
 
   void finish(const std::string& outcome) {
     bar_.finish();
     timer_.begin(kOutputPhase);
-    for (const auto& writer : writers_) writer->close();
+    writers_->close();
     timer_.end();
     for (const std::string& text : statistics_.warnings(plan_, *simulation_)) log_.warning(text);
     if (stats_file_)
@@ -227,14 +197,16 @@ class Run {
   const Plan& plan_;
   const Options& options_;
   Log& log_;
-  RunIdentity identity_;  ///< where there are checkpoints
-  long saved_ = -1;       ///< step of the last checkpoint
+  RunIdentity identity_;    ///< where there are checkpoints
+  long saved_ = -1;         ///< step of the last checkpoint
+  bool abandoned_ = false;  ///< the last step has not come to its end
   RunStatistics statistics_;
   PhaseTimer timer_;
   ProgressBar bar_;
   std::unique_ptr<PendingFile> stats_file_;
   std::unique_ptr<Simulation> simulation_;
-  Writers writers_;
+  OutputRecords kept_;  ///< of the frames of an earlier run
+  std::unique_ptr<Writers> writers_;
 };
 
 /// Notices early what prepare_output_directory would refuse, but removes nothing yet.
@@ -247,6 +219,7 @@ void check_output(const Options& options) {
 }  // namespace
 
 int run_simulation(const Plan& plan, ArchiveSource& source, const Options& options, Log& log) {
+  const FolderLock lock = create_output_directory(options.output);
   check_output(options);
   Run run(plan, source, options, log);
   run.go();

@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
+#include "validity.hpp"
 
 #include <algorithm>
 
@@ -64,8 +65,11 @@ std::optional<std::string> RunStatistics::record_step(const Simulation& simulati
 std::vector<std::string> RunStatistics::warnings(const Plan& plan,
                                                  const Simulation& simulation) const {
   std::vector<std::string> out = vibrations_.warnings(simulation, plan.steps);
-  if (const auto unmet = unmet_.warning(simulation.steps(), plan.scene.contact))
+  if (const auto unmet = unmet_.warning(simulation.steps(), plan.scene.contact,
+                                        plan.impossible(simulation.time())))
     out.push_back(*unmet);
+  for (const Body& body : simulation.bodies())
+    if (auto text = validity_warning(body)) out.push_back(std::move(*text));
   return out;
 }
 
@@ -114,7 +118,8 @@ Json body_json(const PlannedBody& planned, const Body& body, const Json& growing
            {"window", model.window},
            {"growth", model.report.growth},
            {"linear_momentum", vector_json(body.linear_momentum())},
-           {"angular_momentum", vector_json(body.frame().angular_momentum())}};
+           {"angular_momentum", vector_json(body.frame().angular_momentum())},
+           {"validity", validity_json(body)}};
   if (!growing.is_null()) out["growing_vibration"] = growing;
   return out;
 }

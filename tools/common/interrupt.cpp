@@ -1,6 +1,7 @@
 #include "common/interrupt.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <initializer_list>
 
@@ -36,6 +37,18 @@ void catch_interrupts() {
 
 int pending_interrupt() {
   return pending;
+}
+
+void check_overdue_interrupt() {
+  using Clock = std::chrono::steady_clock;
+  constexpr Clock::duration kGrace = std::chrono::milliseconds(500);
+  static std::atomic<Clock::rep> noticed{0};
+  const int signal = pending;
+  if (signal == 0) return;
+  const Clock::rep now = Clock::now().time_since_epoch().count();
+  Clock::rep first = 0;
+  if (noticed.compare_exchange_strong(first, now)) return;
+  if (now - first > kGrace.count()) throw Interrupted(signal);
 }
 
 void check_interrupt() {

@@ -26,4 +26,8 @@ int pending_interrupt();
 /// Throws Interrupted if a signal arrived: what long work calls now and then.
 void check_interrupt();
 
+/// Throws Interrupted if a signal was noticed here more than half a second ago: what work calls
+/// that had better come to its end. May be called from any thread.
+void check_overdue_interrupt();
+
 }  // namespace bem

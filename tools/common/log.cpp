@@ -3,11 +3,26 @@
 #include "base/error.hpp"
 #include "scene/location.hpp"
 
+#include <filesystem>
 #include <iostream>
+#include <string_view>
 
 #include <unistd.h>
 
 namespace bem {
+
+bool Log::is_log(const std::string& path) {
+  if (path.empty()) return false;
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) return true;
+  std::string start(9, '\0');  // the length of the longest of these
+  std::ifstream file(path);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  for (const std::string_view kind : {"error: ", "warning: ", "info: ", "detail: "})
+    if (start.compare(0, kind.size(), kind) == 0) return true;
+  return start.empty();
+}
 
 void Log::open_file(const std::string& path) {
   file_.open(path, std::ios::trunc);

@@ -14,6 +14,8 @@ class Log {
  public:
   void set_verbosity(Verbosity verbosity) { verbosity_ = verbosity; }
   Verbosity verbosity() const { return verbosity_; }
+  /// Is there nothing of this name, or a file that a log has written, or a device?
+  static bool is_log(const std::string& path);
   /// Overwrites `path`; throws ErrorCode::resources if it cannot be written.
   void open_file(const std::string& path);
 

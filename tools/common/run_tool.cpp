@@ -1,8 +1,12 @@
 #include "base/error.hpp"
 #include "common/cli.hpp"
+#include "common/memory.hpp"
 
+#include <csignal>
 #include <iostream>
 #include <new>
+#include <stdexcept>
+#include <system_error>
 
 namespace bem {
 
@@ -10,23 +14,54 @@ std::string version_text() {
   return std::string("bem ") + BEM_VERSION;
 }
 
-int run_tool(Log& log, const std::function<int()>& body) {
+namespace {
+
+int exit_code(ErrorCode code) {
+  return static_cast<int>(code);
+}
+
+/// Reports the exception that is being handled.
+int report(Log& log) {
+  release_memory_reserve();
   try {
-    const int code = body();
-    if (!std::cout.flush()) throw Error(ErrorCode::resources, "standard output cannot be written");
-    return code;
+    throw;
   } catch (const Error& e) {
     log.error(e.what());
-    return static_cast<int>(e.code());
+    return exit_code(e.code());
   } catch (const Interrupted& e) {
     log.error(e.what());
     return 128 + e.signal();
   } catch (const std::bad_alloc&) {
     log.error("not enough memory");
-    return static_cast<int>(ErrorCode::resources);
+    return exit_code(ErrorCode::resources);
+  } catch (const std::length_error&) {
+    log.error("not enough memory");
+    return exit_code(ErrorCode::resources);
+  } catch (const std::system_error& e) {
+    log.error(std::string("the system has failed: ") + e.what());
+    return exit_code(ErrorCode::resources);
   } catch (const std::exception& e) {
     log.error(std::string("internal error: ") + e.what());
-    return static_cast<int>(ErrorCode::internal);
+    return exit_code(ErrorCode::internal);
+  }
+}
+
+}  // namespace
+
+int run_tool(Log& log, const std::function<int()>& body) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that is too large is a failed write
+  try {
+    guard_memory();
+    try {
+      const int code = body();
+      if (!std::cout.flush())
+        throw Error(ErrorCode::resources, "standard output cannot be written");
+      return code;
+    } catch (...) {
+      return report(log);
+    }
+  } catch (const std::bad_alloc&) {  // of the report
+    end_without_memory();
   }
 }
 

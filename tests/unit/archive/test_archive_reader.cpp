@@ -143,7 +143,7 @@ TEST_CASE("A Haar compressed archive whose tables do not fit its data is refused
     std::string damaged = intact;
     damaged[place + at] = static_cast<char>(damaged[place + at] ^ 0x80);
     write_bytes(path, damaged);
-    seal_archive(path);
+    seal_archive(path, path);
     return error_of([&] { Archive(path).load_all(); });
   };
   const PackedRows& packed = dynamic_cast<const HaarFamily&>(*model.h).packed();
@@ -235,7 +235,7 @@ TEST_CASE("A sealed file that is not what this version understands is refused") 
     file.set_attribute("/", "codec", codec);
     file.set_attribute("/", "precision", "float32");
     file.close();
-    seal_archive(folder / "a.bem");
+    seal_archive(folder / "a.bem", "a.bem");
     return error_of([&] { Archive(folder / "a.bem"); });
   };
   CHECK(refusal("plastic", "none").second.find("model \"plastic\"") != std::string::npos);

@@ -93,7 +93,7 @@ TEST_CASE("datasets must be stored as this project does") {
 TEST_CASE("chunks of growing files must be there, but for the last row") {
   const test::TemporaryFolder folder("structure_chunks");
   const auto fault = [&](std::size_t written, std::size_t promised, Hdf5Storage storage) {
-    Hdf5File file = Hdf5File::create(folder / "a", {ErrorCode::resources, 0, true});
+    Hdf5File file = Hdf5File::create(folder / "a", {"", ErrorCode::resources, 0, true});
     file.create_dataset("/series", Hdf5Type::float64, {0, 600}, {{1, 600}, true});
     file.extend_rows("/series", written);
     const std::vector<double> row(600 * written, 1.0);

@@ -68,18 +68,51 @@ TEST_CASE("What a killed process has left goes away with the next one") {
     raise(SIGKILL);
   }
   REQUIRE(waitpid(child, nullptr, 0) == child);
-  const std::string abandoned = "a.partial-" + std::to_string(child);
-  REQUIRE(names_in(folder.path()) == Names{abandoned});
-  // of other files, of a process that lives, and of nobody
-  const std::string living = "a.partial-" + std::to_string(getppid());
-  Names others = {
-      "b.partial-" + std::to_string(child), living, "a.partial-", "a.partial-x", abandoned + "0x",
-      "xa.partial-" + std::to_string(child)};
+  const Names abandoned = names_in(folder.path());
+  REQUIRE(abandoned.size() == 1);
+  // of other files, and names that only look like one
+  Names others = {"b" + abandoned[0].substr(1), "a.partial-", "a.partial-x", abandoned[0] + "0",
+                  "x" + abandoned[0]};
   for (const std::string& name : others) std::ofstream(folder / name) << "mine";
-  PendingFile(folder / "a").commit("text");
+  {
+    PendingFile living(folder / "a");  // is not taken for one that nobody writes
+    PendingFile(folder / "a").commit("text");
+    living.commit("other");
+  }
   others.push_back("a");
   std::sort(others.begin(), others.end());
   CHECK(names_in(folder.path()) == others);
+  CHECK(contents(folder / "a") == "other");
+}
+
+TEST_CASE("A file that has come in the meantime is kept where that is asked for") {
+  const TemporaryFolder folder("keep");
+  PendingFile first(folder / "a"), second(folder / "a"), third(folder / "a");
+  first.append("first");
+  second.append("second");
+  third.append("third");
+  first.commit(bem::ExistingFile::keep);
+  try {
+    second.commit(bem::ExistingFile::keep);
+    FAIL("the first is lost");
+  } catch (const bem::Error& e) {
+    CHECK(e.code() == bem::ErrorCode::usage);
+    CHECK(std::string(e.what()).find(folder / "a: exists now") == 0);
+  }
+  CHECK(contents(folder / "a") == "first");
+  third.commit();
+  CHECK(contents(folder / "a") == "third");
+}
+
+TEST_CASE("No link leads a temporary file away, and no two have one name") {
+  const TemporaryFolder folder("links");
+  std::ofstream(folder / "precious") << "precious";
+  std::filesystem::create_symlink(folder / "precious", folder / "a");
+  PendingFile one(folder / "a"), other(folder / "a");
+  CHECK(one.temporary_path() != other.temporary_path());
+  one.commit("text");
+  CHECK(contents(folder / "precious") == "precious");
+  CHECK(contents(folder / "a") == "text");
 }
 
 TEST_CASE("Devices and pipes are written, not replaced") {

@@ -1,6 +1,7 @@
 #include "contact/bounding_tree.hpp"
 #include "contact_test.hpp"
 
+#include <limits>
 #include <random>
 #include <set>
 
@@ -62,4 +63,26 @@ TEST_CASE("a tree with itself finds every pair once") {
     for (int t = s + 1; t < static_cast<int>(mesh.triangles.size()); ++t)
       if (overlap(triangle_box(mesh, s, 0), triangle_box(mesh, t, 0))) expected.emplace(s, t);
   CHECK(found == expected);
+}
+
+TEST_CASE("overlapping boxes are those of all against all") {
+  std::mt19937_64 generator(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<BoundingBox> boxes;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 at(uniform(generator), uniform(generator), uniform(generator));
+    const Vec3 size(uniform(generator), uniform(generator), uniform(generator));
+    boxes.push_back({at - 0.2 * size.cwiseAbs(), at + 0.2 * size.cwiseAbs()});
+  }
+  boxes.push_back({Vec3::Constant(-2), Vec3::Constant(2)});
+  boxes[7].max[1] = std::numeric_limits<double>::quiet_NaN();
+  boxes[9] = {Vec3::Constant(-std::numeric_limits<double>::infinity()),
+              Vec3::Constant(std::numeric_limits<double>::infinity())};
+  std::vector<std::pair<int, int>> expected;
+  for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
+    for (int j = i + 1; j < static_cast<int>(boxes.size()); ++j)
+      if (overlap(boxes[i], boxes[j])) expected.emplace_back(i, j);
+  CHECK(expected.size() > 800);
+  CHECK(overlapping_pairs(boxes) == expected);
+  CHECK(overlapping_pairs({}).empty());
 }

@@ -58,22 +58,35 @@ TEST_CASE("a body inside out is turned, with a warning") {
   CHECK(mesh.triangles == kCube.triangles);
 }
 
-TEST_CASE("a cavity stays, and one with outward normals is turned into one") {
+TEST_CASE("a cavity stays, and one with outward normals is turned into one and told so") {
   for (bool inward : {true, false}) {
     TriangleMesh mesh = combined(kCube, kCube, 0.5, Vec3::Zero(), inward);
     const auto warnings = orient(mesh);
     CHECK(warnings.size() == (inward ? 0 : 1));
+    if (!inward)
+      CHECK_THAT(warnings[0], Contains("inside of another one is its cavity") &&
+                                  Contains("1 part of 2") && Contains("triangle 48 ") &&
+                                  !Contains("pointed inward"));
     const auto components = surface_components(mesh);
     CHECK(components[0].volume == Approx(1));
     CHECK(components[1].volume == Approx(-0.125));
+    CHECK(components[1].parent == 0);
   }
 }
 
-TEST_CASE("solids side by side keep their orientation and are warned about") {
-  TriangleMesh mesh = combined(kCube, kCube, 1.0, {1.5, 0, 0}, false);
+TEST_CASE("a body inside out is turned with its cavities") {
+  TriangleMesh mesh = combined({}, kCube, 1.0, Vec3::Zero(), true);
+  mesh = combined(mesh, kCube, 0.5, Vec3::Zero(), false);
   const auto warnings = orient(mesh);
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Contains("2 separate solids") && Contains("triangle 48 "));
+  CHECK_THAT(warnings[0], Contains("turned outward: 2 parts of 2"));
+}
+
+TEST_CASE("solids side by side keep their orientation") {
+  TriangleMesh mesh = combined(kCube, kCube, 1.0, {1.5, 0, 0}, false);
+  const TriangleMesh before = mesh;
+  CHECK(orient(mesh).empty());
+  CHECK(mesh.triangles == before.triangles);
 }
 
 TEST_CASE("parts that touch are told apart: on top is a solid, under the surface a cavity") {
@@ -82,8 +95,8 @@ TEST_CASE("parts that touch are told apart: on top is a solid, under the surface
     const Vec3 place(0.07, 0.03, cavity ? 0.35 : 0.65);
     TriangleMesh mesh = combined(kCube, kCube, 0.3, place, cavity);
     const TriangleMesh before = mesh;
-    const auto warnings = orient(mesh);
+    CHECK(orient(mesh).empty());
     CHECK((mesh.triangles == before.triangles));
-    CHECK(warnings.size() == (cavity ? 0 : 1));  // separate solids
+    CHECK(surface_components(mesh)[1].is_solid() == !cavity);
   }
 }

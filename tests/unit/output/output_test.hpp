@@ -1,10 +1,12 @@
 #pragma once
 
+#include "base/error.hpp"
 #include "output/frame.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/mesh/mesh_test.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 
 namespace bem::test {
@@ -63,13 +65,23 @@ void check_going_on(std::size_t first, std::size_t kept) {
   Writer writer(whole.path(), sample_bodies());
   for (std::size_t f = 0; f < 7; ++f) writer.write(sample_frame(f));
   writer.close();
+  FileRecords records;
   {
     Writer earlier(parts.path(), sample_bodies());
-    for (std::size_t f = 0; f < first; ++f) earlier.write(sample_frame(f));
+    for (std::size_t f = 0; f < first; ++f) {
+      if (f == kept) records = earlier.records();
+      earlier.write(sample_frame(f));
+    }
+    if (first == kept) records = earlier.records();
+    earlier.sync();
   }
+  // What a checkpoint says of the frames that stay is what is read back.
+  CHECK(difference(records, Writer::read_records(parts.path(), sample_bodies(), kept)).empty());
   Writer later(parts.path(), sample_bodies(), kept);
+  later.set_records(records);
   for (std::size_t f = kept; f < 7; ++f) later.write(sample_frame(f));
   later.close();
+  CHECK(difference(writer.records(), later.records()).empty());
   const auto expected = files_below(whole.path()), found = files_below(parts.path());
   CHECK(expected.size() == found.size());
   for (const auto& [name, bytes] : expected) {
@@ -78,12 +90,47 @@ void check_going_on(std::size_t first, std::size_t kept) {
   }
 }
 
+/// Every file of the output, damaged in its first frame or missing, is noticed by its name.
+template <class Writer>
+void check_damage() {
+  const TemporaryFolder folder("damage");
+  FileRecords records;
+  {
+    Writer writer(folder.path(), sample_bodies());
+    for (std::size_t f = 0; f < 3; ++f) writer.write(sample_frame(f));
+    records = writer.records();
+    writer.close();
+  }
+  const auto found = [&] {
+    try {
+      return difference(records, Writer::read_records(folder.path(), sample_bodies(), 3));
+    } catch (const Error& e) {
+      CHECK(e.code() == ErrorCode::invalid_input);
+      return std::string(e.what());
+    }
+  };
+  CHECK(found().empty());
+  for (const auto& [name, bytes] : files_below(folder.path())) {
+    INFO(name);
+    const std::string folder_of_file = name.substr(0, name.find('/') + 1);
+    for (const std::string& damaged : {std::string(), bytes.substr(0, bytes.size() / 3)}) {
+      std::ofstream(folder / name, std::ios::binary) << damaged;
+      CHECK_THAT(found(), Catch::Matchers::Contains(folder_of_file));
+    }
+    std::filesystem::remove(folder / name);
+    CHECK_THAT(found(), Catch::Matchers::Contains(folder_of_file));
+    std::ofstream(folder / name, std::ios::binary) << bytes;
+  }
+  CHECK(found().empty());
+}
+
 /// Going on from more frames than there are is refused.
 template <class Writer>
 std::string refusal_to_go_on() {
   const TemporaryFolder folder("short");
   Writer(folder.path(), sample_bodies()).write(sample_frame(0));
-  return error_message(ErrorCode::resources, [&] { Writer(folder.path(), sample_bodies(), 2); });
+  return error_message(ErrorCode::invalid_input,
+                       [&] { Writer(folder.path(), sample_bodies(), 2); });
 }
 
 }  // namespace bem::test

@@ -8,10 +8,11 @@ using test::error_message;
 TEST_CASE("names of frames") {
   CHECK(frame_file_name("a", 7, ".obj") == "a_000007.obj");
   CHECK(frame_file_name("a_b", 1234567, ".vtp") == "a_b_1234567.vtp");
-  for (const char* name : {"a_000000.obj", "a_b_1234567.obj", "a_000001.obj.tmp", "__000000.obj"})
+  for (const char* name : {"a_000000.obj", "a_b_1234567.obj", "__000000.obj"})
     CHECK(is_frame_file_name(name, ".obj"));
-  for (const char* name : {"a.obj", "a_00000.obj", "_000000.obj", "000000.obj", "a000000.obj",
-                           "a_000000.vtp", "a_00000x.obj", "", ".obj", "a_000000.obj.bak"})
+  for (const char* name :
+       {"a.obj", "a_00000.obj", "_000000.obj", "000000.obj", "a000000.obj", "a_000000.vtp",
+        "a_00000x.obj", "", ".obj", "a_000000.obj.bak", "a_000000.obj.tmp"})
     CHECK_FALSE(is_frame_file_name(name, ".obj"));
 }
 

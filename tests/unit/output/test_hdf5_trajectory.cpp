@@ -1,9 +1,13 @@
 #include "output/hdf5_trajectory.hpp"
 #include "output_test.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <thread>
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 using namespace bem;
@@ -16,6 +20,27 @@ using test::sample_frame;
 namespace {
 
 constexpr std::size_t kFrames = 7;
+
+/// Forty bodies of several sizes: more than are written frame by frame.
+std::vector<TrajectoryBody> many_bodies() {
+  std::vector<TrajectoryBody> bodies;
+  for (std::size_t b = 0; b < 40; ++b)
+    bodies.push_back({"body " + std::to_string(b), 4 + b % 37, {{0, 1, 2}}, b % 5 == 0});
+  return bodies;
+}
+
+Frame many_bodies_frame(std::size_t index) {
+  Frame frame{index, index, 0.25 * double(index), {}};
+  for (const TrajectoryBody& body : many_bodies()) {
+    BodyFrame state;
+    for (std::size_t v = 0; v < body.vertices; ++v)
+      state.positions.push_back(Vec3(double(index), double(v), double(body.vertices)));
+    if (body.tractions) state.tractions = state.positions;
+    state.translation = Vec3(double(index), 1, 2);
+    frame.bodies.push_back(state);
+  }
+  return frame;
+}
 
 void check_frames(const Hdf5File& file, std::size_t frames) {
   const auto times = file.read<double>("/time", {frames});
@@ -174,6 +199,110 @@ TEST_CASE("the same trajectory twice gives the same bytes") {
   CHECK(bytes[0] == bytes[1]);
 }
 
+TEST_CASE("frames that wait for others do not change the bytes of the file") {
+  const test::TemporaryFolder each("each"), some("some"), end("end");
+  Hdf5Trajectory one(each.path(), many_bodies()), two(some.path(), many_bodies()),
+      three(end.path(), many_bodies());
+  for (std::size_t f = 0; f < 600; ++f) {
+    const Frame frame = many_bodies_frame(f);
+    one.write(frame);
+    one.flush();
+    two.write(frame);
+    if (f % 7 == 3 || f % 11 == 1) two.flush();
+    three.write(frame);
+  }
+  one.close();
+  two.close();
+  three.close();
+  const std::string bytes = test::read_file(each / "trajectory.h5");
+  CHECK((bytes == test::read_file(some / "trajectory.h5")));
+  CHECK((bytes == test::read_file(end / "trajectory.h5")));
+  const Hdf5File file = Hdf5File::open(each / "trajectory.h5", ErrorCode::archive);
+  for (std::size_t f : {0, 1, 511, 512, 599}) {
+    const Frame expected = many_bodies_frame(f);
+    double time = 0;
+    file.read_rows("/time", f, 1, &time);
+    CHECK(time == expected.time);
+    std::vector<Vec3> points(expected.bodies[39].positions.size());
+    file.read_rows("/bodies/body 39/positions", f, 1, points.data()->data());
+    CHECK(points == expected.bodies[39].positions);
+  }
+}
+
+TEST_CASE("a killed writer of many bodies loses only frames that wait") {
+  const test::TemporaryFolder folder("trajectory_many_killed");
+  const pid_t child = fork();
+  if (child == 0) {
+    Hdf5Trajectory writer(folder.path(), many_bodies());
+    for (std::size_t f = 0; f < 30; ++f) writer.write(many_bodies_frame(f));
+    writer.flush();
+    writer.write(many_bodies_frame(30));
+    std::raise(SIGKILL);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(WIFSIGNALED(status));
+  const Hdf5File file = Hdf5File::open_growing(folder / "trajectory.h5", ErrorCode::archive);
+  const std::size_t frames = file.dims("/time")[0];
+  CHECK(frames >= 30);
+  for (int b = 0; b < 40; ++b)
+    CHECK(file.dims("/bodies/body " + std::to_string(b) + "/positions")[0] == frames);
+}
+
+TEST_CASE("frames of many bodies do not wait for long") {
+  const test::TemporaryFolder folder("trajectory_wait");
+  const pid_t child = fork();
+  if (child == 0) {
+    Hdf5Trajectory writer(folder.path(), many_bodies());
+    writer.write(many_bodies_frame(0));
+    writer.write(many_bodies_frame(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2200));
+    writer.write(many_bodies_frame(2));
+    std::raise(SIGKILL);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  const Hdf5File file = Hdf5File::open_growing(folder / "trajectory.h5", ErrorCode::archive);
+  CHECK(file.dims("/time")[0] == 3);
+}
+
+TEST_CASE("of frames that wait those are kept that the disk has room for") {
+  const test::TemporaryFolder folder("trajectory_full");
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    Hdf5Trajectory writer(folder.path(), many_bodies());
+    writer.write(many_bodies_frame(0));
+    writer.flush();
+    const auto room = std::filesystem::file_size(folder / "trajectory.h5") + 3000000;
+    const rlimit limit{room, room};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    bool refused = false;
+    for (std::size_t f = 1; f < 1000 && !refused; ++f) {
+      try {
+        writer.write(many_bodies_frame(f));
+        if (f % 500 == 0) writer.flush();
+      } catch (const Error& e) {
+        refused = e.code() == ErrorCode::resources;
+      }
+    }
+    writer.close();
+    std::_Exit(refused ? 0 : 1);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE((WIFEXITED(status) && WEXITSTATUS(status) == 0));
+  const Hdf5File file = Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive);
+  const std::size_t frames = file.dims("/time")[0];
+  CHECK(frames > 20);
+  CHECK(frames < 500);
+  for (std::size_t f = 0; f < frames; ++f) {
+    std::vector<Vec3> points(8);
+    file.read_rows("/bodies/body 4/positions", f, 1, points.data()->data());
+    CHECK(points == many_bodies_frame(f).bodies[4].positions);
+  }
+}
+
 TEST_CASE("frames come in their order and with all bodies") {
   const test::TemporaryFolder folder("trajectory_order");
   Hdf5Trajectory writer(folder.path(), sample_bodies());
@@ -202,19 +331,6 @@ TEST_CASE("a trajectory that goes on ends in the same bytes") {
   CHECK_THAT(test::refusal_to_go_on<Hdf5Trajectory>(), Contains("to go on from"));
 }
 
-TEST_CASE("a trajectory goes on although the first attempt to do so was killed") {
-  const test::TemporaryFolder folder("trajectory_again");
-  {
-    Hdf5Trajectory writer(folder.path(), sample_bodies());
-    for (std::size_t f = 0; f < 5; ++f) writer.write(sample_frame(f));
-  }
-  std::filesystem::rename(folder / "trajectory.h5", folder / kEarlierTrajectory);
-  Hdf5Trajectory(folder.path(), sample_bodies()).write(sample_frame(0));
-  Hdf5Trajectory(folder.path(), sample_bodies(), 4).close();
-  check_frames(Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive), 4);
-  CHECK_FALSE(std::filesystem::exists(folder / kEarlierTrajectory));
-}
-
 TEST_CASE("a trajectory whose writer was killed can go on") {
   const test::TemporaryFolder folder("trajectory_killed_on");
   const pid_t child = fork();
@@ -229,4 +345,8 @@ TEST_CASE("a trajectory whose writer was killed can go on") {
   for (std::size_t f = 4; f < kFrames; ++f) writer.write(sample_frame(f));
   writer.close();
   check_frames(Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive), kFrames);
+}
+
+TEST_CASE("what a checkpoint counts on is compared with the files of a Hdf5Trajectory") {
+  test::check_damage<Hdf5Trajectory>();
 }

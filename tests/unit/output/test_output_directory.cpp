@@ -32,9 +32,14 @@ void touch(const std::string& path) {
 
 TEST_CASE("an output directory is created with those above it") {
   const test::TemporaryFolder folder("output_new");
-  for (int twice = 0; twice < 2; ++twice)
-    prepare_output_directory(folder / "a/b/c", ExistingOutput::refuse);
-  CHECK(fs::is_directory(folder / "a/b/c"));
+  for (int twice = 0; twice < 2; ++twice) {
+    const FolderLock lock = create_output_directory(folder / "a/b/c");
+    CHECK(fs::is_directory(folder / "a/b/c"));
+    CHECK_THAT(
+        error_message(ErrorCode::usage,
+                      [&] { static_cast<void>(create_output_directory(folder / "a/b/../b/c")); }),
+        Contains("another process"));
+  }
 }
 
 TEST_CASE("an output directory that cannot be created is a resource error") {
@@ -42,7 +47,7 @@ TEST_CASE("an output directory that cannot be created is a resource error") {
   touch(folder / "file");
   for (const std::string& directory : {folder / "file", folder / "file/below"})
     CHECK_THAT(error_message(ErrorCode::resources,
-                             [&] { prepare_output_directory(directory, ExistingOutput::refuse); }),
+                             [&] { static_cast<void>(create_output_directory(directory)); }),
                StartsWith(directory + ": "));
 }
 
@@ -61,6 +66,8 @@ TEST_CASE("earlier output is refused, whichever format it has") {
   touch(folder / "obj/b_000001.obj");
   touch(folder / "obj/b_000000.obj");
   CHECK_THAT(refusal(), StartsWith(folder / "obj/b_000000.obj (and 1 more): "));
+  touch(folder / "obj/b_000001.obj.partial-0123456789abcdef");
+  CHECK(find_output(folder.path()).size() == 3);
   CHECK_NOTHROW(prepare_output_directory(folder.path(), ExistingOutput::keep));
   CHECK(find_output(folder.path()).size() == 2);
 }
@@ -69,15 +76,24 @@ TEST_CASE("replacing removes all that the writers write and nothing else") {
   const test::TemporaryFolder folder("output_replace");
   write_everything(folder.path());
   CHECK(find_output(folder.path()).size() == 1 + 2 + 3 + 4);
-  const std::vector<std::string> mine = {
-      "notes.txt",     "trajectory.h5.old", "x_000000.obj", "obj/bunny.obj", "vtp/bunny.vtp",
-      "vtp/other.pvd", "trajectory.pvd",    "x.pc2",        "pc2/bunny.obj", "pc2/.pc2"};
+  const std::vector<std::string> mine = {"notes.txt",
+                                         "trajectory.h5.old",
+                                         "x_000000.obj",
+                                         "obj/bunny.obj",
+                                         "vtp/bunny.vtp",
+                                         "vtp/other.pvd",
+                                         "trajectory.pvd",
+                                         "x.pc2",
+                                         "pc2/bunny.obj",
+                                         "pc2/.pc2",
+                                         "trajectory.h5.partial-1",
+                                         "notes.partial-0123456789abcdef"};
   for (const std::string& name : mine) touch(folder / name);
   fs::create_directory(folder / "obj/folder_000000.obj");
-  const std::vector<std::string> left = {"obj/small_000003.obj.tmp", "vtp/small_000003.vtp.tmp",
-                                         "vtp/trajectory.pvd.tmp",   "pc2/small.obj.tmp",
-                                         "pc2/other.pc2.tmp",        "trajectory.h5.earlier",
-                                         "checkpoint.bin",           "checkpoint.bin.partial-12"};
+  std::vector<std::string> left = {"checkpoint.bin"};
+  for (const char* name : {"obj/small_000003.obj", "vtp/small_000003.vtp", "vtp/trajectory.pvd",
+                           "pc2/small.obj", "pc2/other.pc2", "trajectory.h5", "checkpoint.bin"})
+    left.push_back(name + std::string(".partial-0123456789abcdef"));
   for (const std::string& name : left) touch(folder / name);
   prepare_output_directory(folder.path(), ExistingOutput::replace);
   CHECK(find_output(folder.path()).empty());
@@ -99,4 +115,16 @@ TEST_CASE("a folder that replacing empties goes too, other empty ones stay") {
   CHECK_FALSE(fs::exists(folder / "trajectory.h5"));
   CHECK(fs::exists(folder / "obj"));
   CHECK(fs::exists(folder / "empty"));
+}
+
+TEST_CASE("names that a run may write or remove are known, wherever they come from") {
+  const test::TemporaryFolder folder("output_names");
+  const std::string out = folder / "out";
+  for (const char* name :
+       {"trajectory.h5", "checkpoint.bin", "obj/a_000000.obj", "vtp/trajectory.pvd", "pc2/a.pc2",
+        "pc2/a.obj", "../out/trajectory.h5", "./obj/../trajectory.h5"})
+    CHECK(is_output_name(out, out + "/" + name));
+  for (const char* name :
+       {"notes.txt", "obj/a.obj", "a_000000.obj", "../trajectory.h5", "vtp/a.txt"})
+    CHECK_FALSE(is_output_name(out, out + "/" + name));
 }

@@ -102,3 +102,7 @@ TEST_CASE("a point cache that goes on ends in the same bytes") {
   test::check_going_on<PointCache>(7, 7);
   CHECK_THAT(test::refusal_to_go_on<PointCache>(), Contains("to go on from"));
 }
+
+TEST_CASE("what a checkpoint counts on is compared with the files of a PointCache") {
+  test::check_damage<PointCache>();
+}

@@ -131,7 +131,11 @@ TEST_CASE("VTP frames without their list cannot go on") {
   const test::TemporaryFolder folder("vtp_unlisted");
   VtpSequence(folder.path(), sample_bodies()).write(sample_frame(0));
   std::filesystem::remove(folder / "vtp/trajectory.pvd");
-  CHECK_THAT(
-      error_message(ErrorCode::resources, [&] { VtpSequence(folder.path(), sample_bodies(), 1); }),
-      Contains("to go on from"));
+  CHECK_THAT(error_message(ErrorCode::invalid_input,
+                           [&] { VtpSequence(folder.path(), sample_bodies(), 1); }),
+             Contains("trajectory.pvd: is missing"));
+}
+
+TEST_CASE("what a checkpoint counts on is compared with the files of a VtpSequence") {
+  test::check_damage<VtpSequence>();
 }

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "mesh/polygon_mesh.hpp"
+#include "mesh/triangle_mesh.hpp"
+
+#include <string>
+
+namespace bem {
+
+/// Cuts the faces of a mesh into triangles, face by face in their order, whatever format they came
+/// from. Triangles stay as they are, corners that repeat the one before them are left out, and
+/// mesh/face_triangles.hpp cuts the others; then diagonals that would be an edge elsewhere in the
+/// mesh, too, are exchanged where that is possible. A face whose triangles cannot be found because
+/// an index or a coordinate is bad becomes a fan, so that the checks of a mesh name it.
+///
+/// Throws ErrorCode::invalid_input for a face that crosses itself; the message names `source` (with
+/// the line where it is known) and the face. O(n log n).
+TriangleMesh triangulate(PolygonMesh polygons, const std::string& source);
+
+}  // namespace bem

@@ -1,0 +1,108 @@
+#include "writers.hpp"
+
+#include "base/error.hpp"
+#include "output/hdf5_trajectory.hpp"
+#include "output/obj_sequence.hpp"
+#include "output/point_cache.hpp"
+#include "output/vtp_sequence.hpp"
+
+#include <algorithm>
+
+namespace bem {
+namespace {
+
+using Bodies = std::vector<TrajectoryBody>;
+
+Bodies bodies_of(const Plan& plan) {
+  Bodies bodies;
+  for (const PlannedBody& body : plan.bodies) {
+    const TriangleMesh& mesh = body.archive->geometry().input;
+    bodies.push_back({body.spec->name, mesh.vertices.size(), mesh.triangles,
+                      writes_tractions(plan.scene), mesh.vertices});
+  }
+  return bodies;
+}
+
+/// Calls `use` with the writer's type as that of its argument, a null pointer.
+template <class Use>
+auto with_writer(OutputFormat format, const Use& use) {
+  switch (format) {
+    case OutputFormat::hdf5:
+      return use(static_cast<Hdf5Trajectory*>(nullptr));
+    case OutputFormat::obj:
+      return use(static_cast<ObjSequence*>(nullptr));
+    case OutputFormat::vtp:
+      return use(static_cast<VtpSequence*>(nullptr));
+    case OutputFormat::pc2:
+      return use(static_cast<PointCache*>(nullptr));
+  }
+  throw Error(ErrorCode::internal, "no writer for the format " + format_name(format));
+}
+
+FileRecords read_records(OutputFormat format, const std::string& directory, const Bodies& bodies,
+                         std::size_t frames) {
+  return with_writer(format, [&](auto* type) {
+    return std::remove_pointer_t<decltype(type)>::read_records(directory, bodies, frames);
+  });
+}
+
+}  // namespace
+
+bool writes_tractions(const Scene& scene) {
+  const auto& fields = scene.output.fields;
+  return std::find(fields.begin(), fields.end(), OutputField::tractions) != fields.end();
+}
+
+void check_output_records(const Plan& plan, const std::string& directory, std::size_t frames,
+                          const OutputRecords& records) {
+  const Bodies bodies = bodies_of(plan);
+  const auto& formats = plan.scene.output.formats;
+  require(records.size() == formats.size(), "a checkpoint knows the files of every format");
+  const auto refuse = [](const std::string& text) {
+    throw Error(ErrorCode::invalid_input,
+                text +
+                    "; the run cannot go on from its checkpoint without this output as it was: "
+                    "restore it, or start anew with --force");
+  };
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    FileRecords found;
+    try {
+      found = read_records(formats[i], directory, bodies, frames);
+    } catch (const Error& e) {
+      if (e.code() != ErrorCode::invalid_input) throw;
+      refuse(e.what());
+    }
+    const std::string text = difference(records[i], found);
+    if (!text.empty()) refuse(directory + "/" + text);
+  }
+}
+
+Writers::Writers(const Plan& plan, const std::string& directory, std::size_t kept,
+                 const OutputRecords& records) {
+  const Bodies bodies = bodies_of(plan);
+  for (OutputFormat format : plan.scene.output.formats) {
+    writers_.push_back(with_writer(format, [&](auto* type) -> std::unique_ptr<FrameWriter> {
+      return std::make_unique<std::remove_pointer_t<decltype(type)>>(directory, bodies, kept);
+    }));
+    if (kept > 0) writers_.back()->set_records(records[writers_.size() - 1]);
+  }
+}
+
+void Writers::write(const Frame& frame) {
+  for (const auto& writer : writers_) writer->write(frame);
+}
+
+OutputRecords Writers::sync() {
+  OutputRecords records;
+  for (const auto& writer : writers_) {
+    writer->sync();
+    records.push_back(writer->records());
+  }
+  return records;
+}
+
+void Writers::close() {
+  for (const auto& writer : writers_) writer->close();
+}
+
+}  // namespace bem
