@@ -55,19 +55,21 @@ double deepest(const ContactSet& set, const Eigen::VectorXd& forces) {
 
 /// Whether no forces keep all contacts apart, as those of something rigid between closing walls:
 /// then contacts that give way ever less come to a limit of their penetration, which else falls
-/// with their softness. `best` takes the forces of the least soft ones.
+/// with their softness. `best` takes the forces of the softest ones, which share the penetration
+/// out without throwing anything about.
 bool is_infeasible(const ContactSet& set, double sufficient, ProximalNewton& newton,
                    BestForces& best, int& steps) {
   constexpr int kMostSteps = 15;
   constexpr double kStays = 0.5;  // of the penetration with ten times the softness
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * set.problem.contacts());
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * set.problem.contacts()), soft;
   double last = 0, now = 0;
-  for (double alpha : {1e-2, 1e-3, 1e-4}) {
+  for (double alpha : {1e-1, 1e-2, 1e-3, 1e-4}) {
     if (!newton.solve_compliant(alpha, kMostSteps, forces, steps)) return false;
+    if (soft.size() == 0) soft = forces;
     last = std::exchange(now, deepest(set, forces));
   }
   const bool infeasible = now > sufficient && now > kStays * last;
-  if (infeasible) best.replace(forces);
+  if (infeasible) best.replace(soft);
   return infeasible;
 }
 

@@ -47,6 +47,8 @@ class Hdf5Trajectory : public FrameWriter {
   /// O(vertices); besides its own bytes a frame of a small body rewrites at most 4 KiB. Up to 32
   /// bodies every frame is written at once. Frames that the disk has no room for are forgotten.
   void write(const Frame& frame) override;
+  /// Hands frames that wait for others to the operating system. Throws ErrorCode::resources.
+  void flush();
   void sync() override;
   void close() override;
 
@@ -71,7 +73,6 @@ class Hdf5Trajectory : public FrameWriter {
   void create_series(const std::string& path, const Hdf5Dims& extents, const char* units);
   void copy_frames(const Hdf5File& earlier, std::size_t count);
   bool is_due() const;
-  void flush();
   void store(std::size_t end);
   void store_together(std::size_t end);
   std::size_t bytes_of(std::size_t end) const;

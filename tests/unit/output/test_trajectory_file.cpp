@@ -26,7 +26,7 @@ std::string fault_after(const std::function<void(Contents&)>& change) {
   const test::TemporaryFolder folder("trajectory_file");
   Contents c;
   change(c);
-  Hdf5File out = Hdf5File::create(folder / "t.h5", {ErrorCode::resources, 0, true});
+  Hdf5File out = Hdf5File::create(folder / "t.h5", {"", ErrorCode::resources, 0, true});
   out.create_dataset("/time", Hdf5Type::float64, {c.times.size()}, {{16}, true});
   out.write_rows("/time", 0, c.times.size(), c.times.data());
   out.create_dataset("/bodies/b/positions", Hdf5Type::float64, {c.frames, kVertices, 3},
