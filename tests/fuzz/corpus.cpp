@@ -28,6 +28,10 @@ void write(const fs::path& path, const std::string& bytes) {
 
 void meshes(const fs::path& folder) {
   write_obj((folder / "ball.obj").string(), icosphere(0, 0.1));
+  write(folder / "concave.off",
+        "OFF\n# a prism on an L\n12 8 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 1\n2 0 1\n"
+        "2 1 1\n1 1 1\n1 2 1\n0 2 1\n6 5 4 3 2 1 0\n6 6 7 8 9 10 11\n4 0 1 7 6\n4 1 2 8 7\n"
+        "4 2 3 9 8\n4 3 4 10 9\n4 4 5 11 10\n4 5 0 6 11\n");
   write(folder / "polygons.obj",
         "# a cube of quadrilaterals\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\n"
         "v 1 1 1\nv 0 1 1\nvn 0 0 1\nvt 0 0\nf 4/1/1 3/1/1 2/1/1 1/1/1\nf 5//1 6//1 7//1 8//1\n"
