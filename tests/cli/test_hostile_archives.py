@@ -200,11 +200,12 @@ class HostileArchives(CliCase):
         self.assertEqual(self.run_limited(BEMPRECOMP, "--verify", "bad.bem").returncode, 0)
 
     def test_structure(self):
-        """Every kind of change in some datasets, and every dataset with some kind of change."""
+        """Every kind of change in some dataset, and every dataset with some kind of change."""
         rng = random.Random(1)
         for kind in KINDS:
             names = self.datasets(kind)
-            cases = [(rng.choice(list(STRUCTURE)), name) for name in names]
+            most = len(names) if kind in ("lowrank", "none") else 8
+            cases = [(rng.choice(list(STRUCTURE)), name) for name in rng.sample(names, min(most, len(names)))]
             if kind == "none":
                 cases += [(change, rng.choice(names)) for change in STRUCTURE]
             for change, name in cases:
@@ -213,10 +214,11 @@ class HostileArchives(CliCase):
 
     def test_attributes(self):
         self.make("lowrank")
+        rng = random.Random(2)
         for place, name in NUMBERS:
-            for change, apply in ATTRIBUTES.items():
-                if change == "too large" and name in BIG:
-                    continue
+            changes = [change for change in ATTRIBUTES if change != "too large" or name not in BIG]
+            for change in changes if name == "window" else rng.sample(changes, 4):
+                apply = ATTRIBUTES[change]
                 with self.subTest(place=place, name=name, change=change):
                     self.assert_change_refused(lambda file: apply(file[place].attrs, name))
 
