@@ -7,7 +7,7 @@
 namespace bem {
 namespace {
 
-constexpr int kSeconds = 5;                      // of processor time
+constexpr int kSeconds = 5;                       // of processor time
 constexpr std::uintmax_t kBytesPerSecond = 50e6;  // that any disk and processor manage
 
 }  // namespace
