@@ -21,10 +21,11 @@ class ArchiveModel : public bem::ModelSource {
   bem::TractionData tractions(const bem::FilePath&, const std::vector<int>& nodes) override {
     return archive_.load_tractions(nodes);
   }
-  bem::TriangleMesh obstacle(const bem::FilePath&) override { return {}; }
+  const bem::ObstacleSurface& obstacle(const bem::MeshObstacle&) override { return none_; }
 
  private:
   const bem::Archive& archive_;
+  bem::ObstacleSurface none_;
 };
 
 void simulate(const bem::Archive& archive) {
@@ -50,7 +51,7 @@ bool run(const std::string& input) {
   bem::set_thread_count(1);
   const MemoryFile file(std::string(bem::kUserBlock, '\0') + input);
   return accepted([&] {
-    bem::seal_archive(file.path());
+    bem::seal_archive(file.path(), "input.bem");
     const bem::Archive archive(file.path());
     archive.check_matrices();
     archive.load_all();
