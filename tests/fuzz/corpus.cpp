@@ -45,7 +45,8 @@ void materials(const fs::path& folder) {
 void scenes(const fs::path& folder, const fs::path& from) {
   for (const auto& entry : fs::recursive_directory_iterator(from))
     if (entry.path().extension() == ".json" && entry.file_size() < 6000)
-      fs::copy_file(entry.path(), folder / entry.path().filename());
+      fs::copy_file(entry.path(), folder / entry.path().filename(),
+                    std::filesystem::copy_options::overwrite_existing);
 }
 
 void archive(const fs::path& folder, const std::string& name, const BodyModel& model) {
