@@ -1,10 +1,16 @@
 #include "base/hdf5.hpp"
 
+#include "base/file_io.hpp"
 #include "base/hdf5_driver.hpp"
 #include "base/hdf5_handle.hpp"
 
+#include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
+
+#include <fcntl.h>
 
 namespace bem {
 namespace {
@@ -40,6 +46,22 @@ Hdf5Handle new_file_access(Hdf5Io& io, bool swmr) {
                 H5Pset_small_data_block_size(access.get(), 0) >= 0,
             "HDF5 files without reserves");
   return access;
+}
+
+/// Does the file have HDF5's signature, at its begin or after a user block? The library's own
+/// question cannot tell a failure of the system from a foreign file.
+bool has_signature(const std::string& path) {
+  constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
+  constexpr std::uint64_t kSmallestBlock = 512;
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  check_io(file ? 0 : errno, path, "cannot be opened");
+  for (std::uint64_t at = 0;; at = std::max(kSmallestBlock, 2 * at)) {
+    std::string bytes(kSignature.size(), '\0');
+    std::size_t got = 0;
+    check_io(read_fully(file.get(), bytes.data(), bytes.size(), at, got), path, "cannot be read");
+    if (bytes == kSignature) return true;
+    if (got < bytes.size()) return false;
+  }
 }
 
 /// Takes the mark of a growing file off one that was given up, as HDF5's h5clear does.
@@ -90,9 +112,7 @@ Hdf5File Hdf5File::open(const std::string& path, ErrorCode error, unsigned mode)
   if (std::filesystem::is_directory(status))
     throw Error(error, path + ": is a directory, not an HDF5 file");
   auto io = std::make_unique<Hdf5Io>();
-  const htri_t recognised = H5Fis_hdf5(path.c_str());
-  if (recognised == 0) throw Error(error, path + ": is not an HDF5 file");
-  if (recognised < 0) fail_at_file(path, error, "cannot be opened", *io);
+  if (!has_signature(path)) throw Error(error, path + ": is not an HDF5 file");
   const Hdf5Handle access = file_access(*io, true);
   const Id id = H5Fopen(path.c_str(), mode, access.get());
   if (id < 0) fail_at_file(path, error, "cannot be opened as an HDF5 file", *io);

@@ -121,7 +121,7 @@ class Statistics(SimulationCase):
         self.assertGreaterEqual(constraints["iterations"]["mean"], 1)
         for name in ("steps_not_converged", "steps_with_contact"):
             self.assertEqual(constraints[name], 0)
-        self.assertEqual(constraints["not_met"], {"joints": 0, "contacts": 0, "penetration": 0})
+        self.assertEqual(set(constraints["not_met"].values()), {0})
         self.assertEqual(stats["warnings"], [])
         self.check_bodies(stats["bodies"])
         self.check_momentum(stats)

@@ -46,9 +46,12 @@ class Faults:
         except Broken as error:
             self.codes[kind, "BROKEN"] += 1
             self.broken.append(f"{case.work.name}: {text}: {error}")
+            print("FAILED", self.broken[-1], flush=True)
+        if sum(self.codes.values()) % 100 == 0:
+            print(f"{sum(self.codes.values())} runs", flush=True)
 
     def sample(self, places, size):
-        return places if self.everything else self.random.sample(places, min(size, len(places)))
+        return self.random.sample(places, len(places) if self.everything else min(size, len(places)))
 
     def calls(self):
         places = []
@@ -90,8 +93,6 @@ class Faults:
         for kind in sorted({kind for kind, _ in self.codes}):
             print(f"{kind}: " + ", ".join(f"{n} times {'exit code ' if code != 'BROKEN' else ''}{code}"
                                           for (of, code), n in sorted(self.codes.items(), key=str) if of == kind))
-        for text in self.broken:
-            print("FAILED", text)
         return 1 if self.broken or not self.codes else 0
 
 

@@ -1,6 +1,7 @@
 #include "common/log.hpp"
 
 #include "base/error.hpp"
+#include "common/memory.hpp"
 #include "scene/location.hpp"
 
 #include <filesystem>
@@ -10,6 +11,12 @@
 #include <unistd.h>
 
 namespace bem {
+
+namespace {
+
+constexpr const char* kError = "error: ";
+
+}  // namespace
 
 bool Log::is_log(const std::string& path) {
   if (path.empty()) return false;
@@ -30,7 +37,7 @@ void Log::open_file(const std::string& path) {
 }
 
 void Log::error(const std::string& text) {
-  print("error: ", text, true);
+  print(kError, text, true);
 }
 
 void Log::warning(const std::string& text) {
@@ -52,6 +59,7 @@ void Log::print(const char* kind, const std::string& message, bool shown) {
   if (shown) {
     erase_status();
     std::cerr << kind << text << "\n" << status_ << std::flush;
+    if (kind == kError) errors_are_told();
   }
   if (file_.is_open() && !(file_ << kind << text << std::endl)) {
     file_.close();

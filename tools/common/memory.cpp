@@ -20,6 +20,8 @@ std::unique_ptr<char[]>& reserve() {
 
 std::atomic<pid_t> guarded{0};  ///< the process, so that forked ones are left alone
 
+std::atomic<bool> told{false};
+
 void say(std::string_view text) {
   static_cast<void>(::write(STDERR_FILENO, text.data(), text.size()) < 0);
 }
@@ -40,8 +42,12 @@ void say(std::string_view text) {
 
 }  // namespace
 
+void errors_are_told() {
+  told = true;
+}
+
 void end_without_memory() {
-  say("error: not enough memory\n");
+  if (!told) say("error: not enough memory\n");
   _exit(static_cast<int>(ErrorCode::resources));
 }
 

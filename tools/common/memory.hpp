@@ -3,8 +3,12 @@
 namespace bem {
 
 /// Ends the process with exit code 6 and the message "error: not enough memory", without needing
-/// any. What is written under temporary names is left to the next run, which removes it.
+/// any; the message is left out after errors_are_told(). What is written under temporary names is
+/// left to the next run, which removes it.
 [[noreturn]] void end_without_memory();
+
+/// From here on stderr has the one error that the process reports.
+void errors_are_told();
 
 /// From here on exceptions that nobody catches end the process with a message and an exit code as
 /// run_tool's, not with a signal. Failed allocations of C libraries, which abort() or crash then,
