@@ -189,6 +189,8 @@ void Hdf5File::close() {
 void Hdf5File::start_swmr() {
   if (H5Fstart_swmr_write(id()) < 0)
     fail_at_file(path_, error_, "cannot be shared with readers while it is written", *io_);
+  check_written();
+  io_->mark();
 }
 
 bool Hdf5File::exists(const std::string& path) const {

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <new>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -20,7 +21,7 @@
 namespace bem {
 namespace {
 
-constexpr int kCrashed = 99;
+constexpr int kCrashed = 99, kNoMemory = static_cast<int>(ErrorCode::resources);
 constexpr int kPatience = 50;  // milliseconds between two looks at interruptions
 
 void set_limit(int which, rlim_t value) {
@@ -28,11 +29,16 @@ void set_limit(int which, rlim_t value) {
   setrlimit(static_cast<decltype(RLIMIT_CPU)>(which), &limit);
 }
 
-/// Address space of this process [B]; 0 if it cannot be found.
-rlim_t address_space() {
-  rlim_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+/// Memory of this process [B]; zeros if it cannot be found.
+struct Memory {
+  rlim_t address_space = 0, resident = 0;
+};
+
+Memory memory_now() {
+  Memory m;
+  std::ifstream("/proc/self/statm") >> m.address_space >> m.resident;
+  const auto page = static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  return {m.address_space * page, m.resident * page};
 }
 
 void silence(int descriptor) {
@@ -61,10 +67,13 @@ bool write_all(int descriptor, const std::string& bytes) {
   silence(STDERR_FILENO);
   int status = kCrashed;
   try {
-    if (const rlim_t now = address_space(); now > 0) set_limit(RLIMIT_AS, now + limits.memory);
+    if (const rlim_t now = memory_now().address_space; now > 0)
+      set_limit(RLIMIT_AS, now + limits.memory);
     set_limit(RLIMIT_CORE, 0);
     set_limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_seconds));
     status = write_all(pipe, work()) ? 0 : kCrashed;
+  } catch (const std::bad_alloc&) {
+    status = kNoMemory;
   } catch (...) {
   }
   _exit(status);
@@ -117,9 +126,11 @@ class Child {
   /// Waits for the end and returns its status.
   int wait() {
     int status = 0;
-    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    rusage usage{};
+    while (wait4(process_, &status, 0, &usage) < 0 && errno == EINTR) {
     }
     process_ = 0;
+    peak_ = static_cast<rlim_t>(usage.ru_maxrss) * 1024;
     return status;
   }
 
@@ -128,15 +139,25 @@ class Child {
     return wait();
   }
 
+  /// The most memory that it had, after wait() [B].
+  rlim_t peak() const { return peak_; }
+
  private:
+  rlim_t peak_ = 0;
   pid_t process_ = 0;
   int pipe_ = -1;
 };
 
+bool is_without_memory(int status) {
+  return WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory;
+}
+
 std::string failure_text(int status) {
+  constexpr const char* kTooMuch = "took too much time or memory";
+  if (is_without_memory(status)) return kTooMuch;
   if (!WIFSIGNALED(status)) return "stopped early";
   const bool late = WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL;
-  return late ? "took too much time or memory" : strsignal(WTERMSIG(status));
+  return late ? kTooMuch : strsignal(WTERMSIG(status));
 }
 
 }  // namespace
@@ -145,6 +166,7 @@ IsolatedResult run_isolated(const std::function<std::string()>& work,
                             const IsolatedLimits& limits) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(limits.wall_seconds);
+  const rlim_t shared = memory_now().resident;
   Child child(work, limits);
   IsolatedResult result;
   bool in_time = true;
@@ -153,6 +175,8 @@ IsolatedResult run_isolated(const std::function<std::string()>& work,
     in_time = Clock::now() < end;
   }
   const int status = in_time ? child.wait() : child.stop();
+  if (is_without_memory(status) && child.peak() < shared + limits.memory / 2)
+    throw Error(ErrorCode::resources, "not enough memory");
   result.finished = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   if (!result.finished) result.failure = failure_text(status);
   return result;

@@ -28,7 +28,8 @@ struct IsolatedResult {
 ///
 /// While it waits it calls check_interruption() (base/interruption.hpp) twenty times a second: what
 /// that throws ends the child and is passed on. Throws ErrorCode::resources if no process can be
-/// started.
+/// started, and if the child gets no memory although it has taken less than half of its limit: then
+/// it is the system that has none.
 IsolatedResult run_isolated(const std::function<std::string()>& work, const IsolatedLimits& limits);
 
 }  // namespace bem

@@ -148,7 +148,7 @@ void Hdf5Trajectory::create_contents() {
     if (body.tractions) create_series(path + "/tractions", {body.vertices, 3}, "Pa");
   }
   std::rotate(series_.begin(), series_.begin() + 1, series_.end());
-  file_.start_swmr();  // which hands all of it to the operating system
+  file_.start_swmr();  // which hands all of it to the system
   for (Series& s : series_) s.dataset.emplace(file_, s.path);
 }
 

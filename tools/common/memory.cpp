@@ -18,9 +18,7 @@ std::unique_ptr<char[]>& reserve() {
   return memory;
 }
 
-std::atomic<pid_t> guarded{0};  ///< the process, so that forked ones are left alone
-
-std::atomic<bool> told{false};
+std::atomic<bool> guarded{false}, told{false};
 
 void say(std::string_view text) {
   static_cast<void>(::write(STDERR_FILENO, text.data(), text.size()) < 0);
@@ -55,11 +53,11 @@ void guard_memory() {
   constexpr std::size_t kForMessages = 1 << 18;
   reserve() = std::make_unique<char[]>(kForMessages);
   std::set_terminate(end_without_catch);
-  guarded = ::getpid();
+  guarded = true;
 }
 
 bool is_guarded() {
-  return guarded == ::getpid();
+  return guarded;
 }
 
 void release_memory_reserve() {

@@ -15,7 +15,7 @@ void errors_are_told();
 /// end it at once; those of C++ are exceptions as ever. Keeps some memory for messages.
 void guard_memory();
 
-/// Has this process called guard_memory()? Not if one did from which it was forked.
+/// Has this process, or the one from which it was forked, called guard_memory()?
 bool is_guarded();
 
 /// Gives back the memory that is kept for messages.
