@@ -8,10 +8,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage="usage: scripts/report.sh [PART...]
   parts: tests (ctest -L long), benchmarks (bem_bench), bunny and spheres (whole bemprecomp runs),
-  steps (bemsim on the bunny), study (speed against error), calculix (the same with a volume finite
+  steps (bemsim on the bunny), bodies (a thousand boxes), study (speed against error), calculix (the same with a volume finite
   element program); all of them by default"
 
-parts=(tests benchmarks bunny spheres steps study calculix)
+parts=(tests benchmarks bunny spheres steps bodies study calculix)
 case "${1:-}" in -h | --help) echo "$usage"; exit 0 ;; esac
 for part in "$@"; do
   [[ " ${parts[*]} " == *" $part "* ]] || { echo "error: unknown part '$part'"$'\n'"$usage" >&2; exit 2; }
@@ -87,6 +87,31 @@ print(json.dumps({"version": 1, "time_step": dt, "duration": 200 * dt, "output":
 PYTHON
     "$bin/bemsim" "$out/steps-$scheme.scene.json" -o "$out/steps-$scheme" --stats "$out/steps-$scheme.json" --force -q
   done
+}
+
+# A thousand rigid boxes that fall freely, 10 x 10 x 10 of them: what it takes to start and per frame.
+run_bodies() {
+  local steps
+  "$bin/bemshape" box --size 0.1 0.1 0.1 --divisions 2 2 2 -o "$out/box.obj"
+  "$bin/bemprecomp" "$out/box.obj" "$material" -o "$out/box.bem" --model rigid --force -q
+  python3 - >"$out/bodies.scene.json" <<'PYTHON'
+import itertools, json
+places = itertools.product(range(10), repeat=3)
+print(json.dumps({"version": 1, "time_step": 0.001, "duration": 0.1, "gravity": [0, 0, -9.81], "contact": {"enabled": True},
+                  "bodies": [{"name": f"box-{i}", "archive": "box.bem", "position": [0.15 * c for c in place]}
+                             for i, place in enumerate(places)]}))
+PYTHON
+  for steps in 1 101; do
+    "$bin/bemsim" "$out/bodies.scene.json" -o "$out/bodies" --steps "$steps" --stats "$out/bodies-$steps.json" --force -q
+  done
+  python3 - "$out" <<'PYTHON'
+import json, sys
+first, last = (json.load(open(f"{sys.argv[1]}/bodies-{n}.json")) for n in (1, 101))
+output = [s["phases"]["output"]["total_seconds"] for s in (first, last)]
+print(f"1000 rigid boxes: {first['cpu_seconds']:.2f} CPU s for the start and one step, "
+      f"{1000 * (last['cpu_seconds'] - first['cpu_seconds']) / 100:.1f} ms per further step with a frame, "
+      f"{1000 * (output[1] - output[0]) / 100:.1f} ms of them for the frame")
+PYTHON
 }
 
 run_study() {

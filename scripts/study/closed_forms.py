@@ -153,3 +153,38 @@ class Slide:
     SPEED, FRICTION, GRAVITY = 1.0, 0.4, 9.81
     TIME = SPEED / (FRICTION * GRAVITY)
     WAY = 0.5 * SPEED * TIME
+
+
+class Drop:
+    """A cube of 0.2 m with nu = 0 falls flat on a floor with 1 m/s, without gravity: a wave runs up and back
+    while the centre turns round with a constant force, then the cube leaves with the same speed."""
+    SIDE, DENSITY, SHEAR, SPEED = 0.2, 1000.0, 1e6, 1.0
+    TIME = 2 * SIDE / math.sqrt(2 * SHEAR / DENSITY)  # of the contact
+
+    def centre(self, times):
+        """Way of the centre from the moment of contact on, upwards."""
+        t = np.minimum(times, self.TIME)
+        return self.SPEED * (t * t / self.TIME - t + np.maximum(times - self.TIME, 0))
+
+
+class Hertz:
+    """A ball of 0.05 m falls on a floor with 2 m/s, without gravity: m x'' = -(4/3) E* sqrt(R) x^1.5."""
+    RADIUS, DENSITY, SHEAR, POISSON, SPEED = 0.05, 1000.0, 1e6, 0.3, 2.0
+    MASS = DENSITY * 4 / 3 * math.pi * RADIUS**3
+    MODULUS = 2 * SHEAR / (1 - POISSON)  # E / (1 - nu^2)
+    DEPTH = (15 * MASS * SPEED**2 / (16 * math.sqrt(RADIUS) * MODULUS))**0.4  # largest approach
+    TIME = 2.9432 * DEPTH / SPEED  # of the contact
+
+    def centre(self, times):
+        """Way of the centre from the moment of contact on, upwards; times in equal steps."""
+        substeps = 200
+        h = (times[1] - times[0]) / substeps
+        x, v, found = 0.0, self.SPEED, []
+        k = 4 / 3 * self.MODULUS * math.sqrt(self.RADIUS) / self.MASS
+        for _ in times:
+            found.append(-x)
+            for _ in range(substeps):  # leapfrog
+                v -= h / 2 * k * max(x, 0)**1.5
+                x += h * v
+                v -= h / 2 * k * max(x, 0)**1.5
+        return np.array(found)

@@ -7,10 +7,10 @@ import typing
 import numpy as np
 
 from . import measures, meshes
-from .closed_forms import Beam, Rod, Slide, Sphere, Tumbling
+from .closed_forms import Beam, Drop, Hertz, Rod, Slide, Sphere, Tumbling
 from .settings import BASE, Plan, Setting
 
-ROD, SPHERE, BEAM, TUMBLING, SLIDE = Rod(), Sphere(), Beam(), Tumbling(), Slide()
+ROD, SPHERE, BEAM, TUMBLING, SLIDE, DROP, HERTZ = Rod(), Sphere(), Beam(), Tumbling(), Slide(), Drop(), Hertz()
 SOFT, HARD = Sphere(1e6, 0.0), Sphere(3e5, 0.45)  # the sphere with other Poisson ratios
 
 
@@ -177,6 +177,30 @@ def measure_slide(run):
     return {**compared(x / SLIDE.WAY, exact / SLIDE.WAY), "way": float(way), "time": float(time)}
 
 
+FLOOR = {"contact": {"enabled": True},
+         "obstacles": [{"name": "floor", "plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}]}
+
+
+def impact_scene(impact, height):
+    """Begins at the moment of contact."""
+    return {**FLOOR, "body": {"position": [0, 0, height], "velocity": [0, 0, -impact.SPEED]}}
+
+
+def measure_impact(impact):
+    """Way of the centre in units of speed times contact time; speed afterwards and duration of the contact
+    over the exact ones."""
+    def measure(run):
+        way = run.translations[:, 2] - run.translations[0, 2]
+        dt = run.times[1] - run.times[0]
+        speeds = np.diff(way) / dt
+        changing = np.flatnonzero(np.abs(speeds - speeds[-1]) > 1e-3 * impact.SPEED)
+        scale = impact.SPEED * impact.TIME
+        return {**compared(way / scale, impact.centre(run.times) / scale), "rebound": float(speeds[-1] / impact.SPEED),
+                "contact_time": float((changing[-1] + 1) * dt / impact.TIME),
+                "approach": float(np.min(way) / np.min(impact.centre(run.times)))}
+    return measure
+
+
 def beam_shape(cells):
     return box((BEAM.LENGTH, BEAM.WIDTH, BEAM.WIDTH), (5 * cells, cells, cells))
 
@@ -247,11 +271,22 @@ PROBLEMS = {
     "slide": Problem(
         "Block that slides to rest", SLIDE.TIME, "cells over the height", "way",
         lambda n: box(SLIDE.SIZE, (4 * n, 4 * n, n)), material(SLIDE.DENSITY, SLIDE.SHEAR, SLIDE.POISSON),
-        {"slide": ({"gravity": [0, 0, -SLIDE.GRAVITY],
+        {"slide": ({**FLOOR, "gravity": [0, 0, -SLIDE.GRAVITY],
                     "body": {"position": [0, 0, SLIDE.SIZE[2] / 2], "velocity": [SLIDE.SPEED, 0, 0],
-                             "friction": SLIDE.FRICTION},
-                    "obstacles": [{"name": "floor", "plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}],
-                    "contact": {"enabled": True}}, measure_slide)},
+                             "friction": SLIDE.FRICTION}}, measure_slide)},
         Plan((((1,), (64, 128, 256)),), more=(Setting(2, 128), Setting(1, 128, model="rigid"))),
         (Setting(1, 32), Setting(1, 32, "bdf2")), periods=1.2),
+    "drop": Problem(
+        "Cube that falls flat, nu = 0", DROP.TIME, "cells per side", "speed times contact time",
+        lambda n: box(3 * (DROP.SIDE,), 3 * (n,)), material(DROP.DENSITY, DROP.SHEAR, 0),
+        {"drop": (impact_scene(DROP, DROP.SIDE / 2), measure_impact(DROP))},
+        Plan((), more=(*(Setting(4, 40, window=w) for w in ("auto", "1")), Setting(8, 40),
+                       *(Setting(4, 40, s) for s in ("bdf1", "theta:0.75", "bdf2")))),
+        (Setting(2, 20),)),
+    "ball": Problem(
+        "Ball that falls on a floor, against Hertz", HERTZ.TIME, "f (10 f^2 + 2 nodes)", "speed times contact time",
+        lambda f: meshes.geodesic_sphere(f, HERTZ.RADIUS), material(HERTZ.DENSITY, HERTZ.SHEAR, HERTZ.POISSON),
+        {"ball": (impact_scene(HERTZ, HERTZ.RADIUS), measure_impact(HERTZ))},
+        Plan((), more=(Setting(4, 33), Setting(8, 33), Setting(8, 33, window="1"))),
+        (Setting(2, 20),)),
 }

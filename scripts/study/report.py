@@ -39,7 +39,7 @@ def parts(found):
             names[f"{scene}"] = tables.table_front(found, scene)
             names[f"{scene} schemes"] = tables.table_schemes(found, scene)
     names["meshes"] = tables.table_meshes(found)
-    for name in ("codec", "quadrature", "corners", "history", "window", "energy", "slide", "calculix"):
+    for name in ("codec", "quadrature", "corners", "history", "window", "energy", "slide", "impact", "calculix"):
         names[name] = getattr(tables, f"table_{name}")(found)
     names["phases"] = tables.table_phases(found, PHASES_OF)
     return {f"study {name}": text for name, text in names.items() if text and not text.endswith("--- |")}  # no rows

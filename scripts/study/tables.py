@@ -11,7 +11,7 @@ SCENES = {scene: name for name, problem in PROBLEMS.items() for scene in problem
 TITLES = {"rod-fixed": "Rod, one end fixed", "rod-free": "Rod, free", "sphere": "Sphere under pressure",
           "sphere-0": "Sphere under pressure, ν = 0", "sphere-45": "Sphere under pressure, ν = 0.45",
           "mode": "Free mode S2 of a sphere", "beam": "Held beam under gravity", "beam-free": "Free beam, first bending mode", "tumble": "Tumbling box",
-          "slide": "Sliding block"}
+          "slide": "Sliding block", "drop": "Flat drop of a cube", "ball": "Ball on a floor"}
 
 
 def number(value, digits=2):
@@ -228,6 +228,13 @@ def table_slide(found):
             for r in sorted(records.values(), key=lambda r: (r["scheme"], r["mesh"], r["steps"]))
             if r["scheme"] in (BASE, "rigid", "bdf1")]
     return table(["scheme", "nodes", "steps until rest", "error of the way", "error of the time", "simulation [CPU s per s]"], rows)
+
+
+def table_impact(found):
+    """Contact against closed forms: 1 is exact."""
+    rows = [[TITLES[scene], r["nodes"], key.split(" ", 2)[2], *(number(r[k], 3) for k in ("rebound", "contact_time", "approach", "error"))]
+            for scene in ("drop", "ball") for key, r in of_scene(found, scene).items() if r["error"] is not None]
+    return table(["problem", "nodes", "steps per contact, scheme and options", "rebound", "contact time", "approach", "error"], rows)
 
 
 def table_calculix(found):

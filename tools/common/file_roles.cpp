@@ -45,6 +45,7 @@ bool FileRoles::same(const File& a, const File& b) {
 }
 
 void FileRoles::reads(const std::string& path) {
+  if (!read_.insert(path).second) return;
   if (const auto file = known(path)) inputs_.push_back(*file);
 }
 

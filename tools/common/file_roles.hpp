@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,7 @@ class FileRoles {
   bool is_in_folder(const File& file) const;
   void check_folder() const;
 
+  std::set<std::string> read_;  ///< paths as given: bodies share archives
   std::vector<File> inputs_, outputs_;
   std::string folder_;
 };
