@@ -2,6 +2,7 @@
 
 #include "assembly/panel_quadrature.hpp"
 #include "base/aligned.hpp"
+#include "kernels/radial_functions.hpp"
 #include "kernels/radial_table.hpp"
 
 namespace bem {

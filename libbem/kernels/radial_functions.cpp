@@ -1,7 +1,9 @@
 #include "kernels/radial_functions.hpp"
 
 #include "kernels/moments.hpp"
+#include "kernels/radial_family.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bem {
@@ -39,6 +41,25 @@ RadialValues<Complex> radial_values(Complex z2, double kappa) {
   v[kRadialM0] = s.m0;
   v[kRadialC0] = k * c.m0;
   return v;
+}
+
+const RadialFamily& collocation_family() {
+  static const int powers[kRadialCount] = {1, 1, 0, 0, 0, 1, 1, 1, 1};
+  static const RadialFamily family = {kRadialCount,
+                                      [](Complex z, double kappa, Complex* out) {
+                                        const RadialValues<Complex> v = radial_values(z, kappa);
+                                        std::copy(v.begin(), v.end(), out);
+                                      },
+                                      powers,
+                                      [](double kappa, double* out) {
+                                        const RadialValues<double> rest =
+                                            static_radial_values(kappa);
+                                        std::fill(out, out + kRadialCount, 0.0);
+                                        for (int f : {kRadialP, kRadialQ, kRadialS})
+                                          out[f] = rest[f];
+                                      },
+                                      true};
+  return family;
 }
 
 }  // namespace bem

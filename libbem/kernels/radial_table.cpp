@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "kernels/bdf1_weights.hpp"
+#include "kernels/radial_functions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +36,9 @@ int refined(int count, double error, double tolerance) {
 
 /// All functions and lanes at t in [-1, 1] of an interval.
 template <class T>
-void evaluate_polynomials(const T* coefficients, int padded_lanes, double t, double* out) {
-  for (int f = 0; f < kRadialCount; ++f)
+void evaluate_polynomials(const T* coefficients, int functions, int padded_lanes, double t,
+                          double* out) {
+  for (int f = 0; f < functions; ++f)
     for (int lane = 0; lane < padded_lanes; ++lane) {
       double value = 0;
       for (int degree = kNodes - 1; degree >= 0; --degree)
@@ -48,11 +50,13 @@ void evaluate_polynomials(const T* coefficients, int padded_lanes, double t, dou
 }  // namespace
 
 RadialWeights::RadialWeights(const Scheme& scheme, double kappa, int last_lag,
-                             const Damping& damping)
+                             const Damping& damping, const RadialFamily& family)
     : contour_(scheme, last_lag),
-      closed_form_(scheme.is_multistep() && scheme.theta() == 0 && damping.time == 0),
+      closed_form_(family.has_bdf1_weights && scheme.is_multistep() && scheme.theta() == 0 &&
+                   damping.time == 0),
       kappa_(kappa),
-      damping_(damping) {}
+      damping_(damping),
+      family_(family) {}
 
 void RadialWeights::evaluate(double lam, double* out) const {
   if (closed_form_ && lam < 600) {
@@ -61,11 +65,11 @@ void RadialWeights::evaluate(double lam, double* out) const {
   }
   const auto functions = [lam, this](Complex d, Complex* value) {
     const Complex m = 1.0 + damping_.time * d;
-    const RadialValues<Complex> v = radial_values(d * lam / std::sqrt(m), kappa_);
-    std::copy(v.begin(), v.end(), value);
-    for (int f : {kRadialA, kRadialB, kRadialF, kRadialM1, kRadialM0, kRadialC0}) value[f] /= m;
+    family_.values(d * lam / std::sqrt(m), kappa_, value);
+    for (int f = 0; f < family_.count; ++f)
+      for (int i = 0; i < family_.modulus_powers[f]; ++i) value[f] /= m;
   };
-  contour_.weights(kRadialCount, functions, out, true);
+  contour_.weights(family_.count, functions, out, true);
 }
 
 void RadialWeights::evaluate_bdf1(double lam, double* out) const {
@@ -83,13 +87,13 @@ void RadialWeights::evaluate_bdf1(double lam, double* out) const {
 }
 
 RadialTable::RadialTable(const Scheme& scheme, double kappa, double lam_max, int last_lag,
-                         double tolerance, const Damping& damping)
+                         double tolerance, const Damping& damping, const RadialFamily& family)
     : layout_(scheme, last_lag), kappa_(kappa) {
   require(lam_max > 0, "the table covers a positive range");
   tolerance = std::max(tolerance, kRounding);
-  lanes_.set_lanes(layout_.count());
-  set_static_parts(scheme);
-  const RadialWeights weights(scheme, kappa, last_lag, damping);
+  lanes_.set_size(family.count, layout_.count());
+  set_static_parts(scheme, family);
+  const RadialWeights weights(scheme, kappa, last_lag, damping, family);
   int count = sampled_intervals(weights, lam_max, tolerance);
   constexpr int kMostRefinements = 12;
   for (int refinement = 0; refinement <= kMostRefinements; ++refinement) {
@@ -125,13 +129,14 @@ int RadialTable::sampled_intervals(const RadialWeights& weights, double lam_max,
   }
 }
 
-void RadialTable::set_static_parts(const Scheme& scheme) {
-  lanes_.static_parts.assign(static_cast<std::size_t>(kRadialCount) * lanes_.padded_lanes, 0.0);
-  const RadialValues<double> rest = static_radial_values(kappa_);
+void RadialTable::set_static_parts(const Scheme& scheme, const RadialFamily& family) {
+  lanes_.static_parts.assign(static_cast<std::size_t>(family.count) * lanes_.padded_lanes, 0.0);
+  std::vector<double> rest(family.count);
+  family.static_parts(kappa_, rest.data());
   int lane = 0;
   for (const InitialComponent& c : scheme.initial_components()) {
     static_lanes_.push_back(lane);
-    for (int f : {kRadialP, kRadialQ, kRadialS})
+    for (int f = 0; f < family.count; ++f)
       lanes_.static_parts[f * lanes_.padded_lanes + lane] = rest[f];
     lane += c.paired ? 2 : 1;
   }
@@ -140,17 +145,17 @@ void RadialTable::set_static_parts(const Scheme& scheme) {
 /// The coefficients of one interval.
 void RadialTable::tabulate(const RadialWeights& weights, int interval, double* out) const {
   static const Eigen::Matrix<double, kNodes, kNodes> to_monomials = interpolation_matrix();
-  const int count = layout_.count();
-  std::vector<double> values(static_cast<std::size_t>(kNodes) * kRadialCount * count);
+  const int count = layout_.count(), functions = lanes_.functions;
+  std::vector<double> values(static_cast<std::size_t>(kNodes) * functions * count);
   for (int i = 0; i < kNodes; ++i)
     weights.evaluate(lanes_.lam_at(interval + 0.5 * (1 + chebyshev_node(i))),
-                     &values[static_cast<std::size_t>(i) * kRadialCount * count]);
-  for (int f = 0; f < kRadialCount; ++f)
+                     &values[static_cast<std::size_t>(i) * functions * count]);
+  for (int f = 0; f < functions; ++f)
     for (int lane = 0; lane < count; ++lane)
       for (int degree = 0; degree < kNodes; ++degree) {
         double sum = 0;
         for (int i = 0; i < kNodes; ++i)
-          sum += to_monomials(degree, i) * values[(i * kRadialCount + f) * count + lane];
+          sum += to_monomials(degree, i) * values[(i * functions + f) * count + lane];
         out[(f * kNodes + degree) * lanes_.padded_lanes + lane] = sum;
       }
 }
@@ -167,7 +172,7 @@ template <class T>
 void LaneTable<T>::evaluate(double lam, double* out) const {
   const double place = position(lam);
   const int index = std::min(static_cast<int>(place), intervals - 1);
-  evaluate_polynomials(interval(index), padded_lanes, 2 * (place - index) - 1, out);
+  evaluate_polynomials(interval(index), functions, padded_lanes, 2 * (place - index) - 1, out);
 }
 
 template struct LaneTable<float>;
@@ -175,7 +180,7 @@ template struct LaneTable<double>;
 
 LaneTable<float> RadialTable::single_precision() const {
   LaneTable<float> narrow;
-  narrow.set_lanes(lanes_.lanes);
+  narrow.set_size(lanes_.functions, lanes_.lanes);
   narrow.intervals = lanes_.intervals;
   narrow.scale = lanes_.scale;
   const auto convert = [&](const AlignedVector<double>& from, AlignedVector<float>& to) {
@@ -194,14 +199,14 @@ LaneTable<float> RadialTable::single_precision() const {
 /// Of the polynomials of an interval, between their nodes.
 double RadialTable::error(const RadialWeights& weights, int interval,
                           const double* coefficients) const {
-  const int count = layout_.count(), padded = lanes_.padded_lanes;
-  std::vector<double> exact(static_cast<std::size_t>(kRadialCount) * count);
-  std::vector<double> found(static_cast<std::size_t>(kRadialCount) * padded);
+  const int count = layout_.count(), padded = lanes_.padded_lanes, functions = lanes_.functions;
+  std::vector<double> exact(static_cast<std::size_t>(functions) * count);
+  std::vector<double> found(static_cast<std::size_t>(functions) * padded);
   double worst = 0;
   for (double t : {0.001, 0.3}) {  // next to an end, where the node polynomial peaks, and inside
     weights.evaluate(lanes_.lam_at(interval + t), exact.data());
-    evaluate_polynomials(coefficients, padded, 2 * t - 1, found.data());
-    for (int f = 0; f < kRadialCount; ++f)
+    evaluate_polynomials(coefficients, functions, padded, 2 * t - 1, found.data());
+    for (int f = 0; f < functions; ++f)
       for (int lane = 0; lane < count; ++lane)
         worst = std::max(worst, std::abs(found[f * padded + lane] - exact[f * count + lane]));
   }

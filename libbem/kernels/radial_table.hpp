@@ -3,7 +3,7 @@
 #include "base/aligned.hpp"
 #include "base/material.hpp"
 #include "kernels/contour.hpp"
-#include "kernels/radial_functions.hpp"
+#include "kernels/radial_family.hpp"
 
 #include <cmath>
 #include <vector>
@@ -22,19 +22,21 @@ struct LaneTable {
   static constexpr double kGrading = 0.2;
   static constexpr int kLanePadding = 64 / sizeof(T);  ///< lanes fill whole cache lines
 
+  int functions = 0;
   int lanes = 0;
   int padded_lanes = 0;
   int intervals = 0;
   double scale = 0;               ///< intervals per unit of the graded variable
   AlignedVector<T> coefficients;  ///< [interval][function][degree][padded lane]
-  AlignedVector<T> static_parts;  ///< [function][padded lane]: static P, Q, S, see static_part()
+  AlignedVector<T> static_parts;  ///< [function][padded lane], see static_part()
 
-  void set_lanes(int count) {
+  void set_size(int function_count, int count) {
+    functions = function_count;
     lanes = count;
     padded_lanes = (count + kLanePadding - 1) / kLanePadding * kLanePadding;
   }
   std::size_t interval_size() const {
-    return static_cast<std::size_t>(kRadialCount) * kNodes * padded_lanes;
+    return static_cast<std::size_t>(functions) * kNodes * padded_lanes;
   }
   static double graded(double lam) {
     const double root = std::sqrt(lam + kGrading);
@@ -47,8 +49,8 @@ struct LaneTable {
   }
   /// Coefficients of an interval, in its local variable in [-1, 1].
   const T* interval(int index) const { return coefficients.data() + index * interval_size(); }
-  /// Static part of P, Q or S by lane (in the real lanes of lag 0; zero for the other functions):
-  /// what the singular integrals treat analytically.
+  /// Static part of a function by lane (in the real lanes of lag 0): what the singular integrals
+  /// treat on its own.
   const T* static_part(int function) const {
     return static_parts.data() + static_cast<std::size_t>(function) * padded_lanes;
   }
@@ -57,15 +59,16 @@ struct LaneTable {
 };
 
 /// Direct evaluation of what RadialTable tabulates, out[function*layout.count() + lane]: closed
-/// form for BDF1 without damping, contour formula for everything else. The moduli of a damped
-/// material are m = 1 + s time times those of an elastic one, so that its kernels are those
-/// of the argument s r/(c2 sqrt(m)), and those that have a modulus in their scale (u*, d*, l*, m*)
-/// are divided by m.
+/// form for BDF1 without damping where there is one, contour formula for everything else. The
+/// moduli of a damped material are m = 1 + s time times those of an elastic one, so that its
+/// kernels are those of the argument s r/(c2 sqrt(m)), divided by powers of m.
 class RadialWeights {
  public:
-  RadialWeights(const Scheme& scheme, double kappa, int last_lag, const Damping& damping = {});
+  RadialWeights(const Scheme& scheme, double kappa, int last_lag, const Damping& damping = {},
+                const RadialFamily& family = collocation_family());
   void evaluate(double lam, double* out) const;
   const LaneLayout& layout() const { return contour_.layout(); }
+  const RadialFamily& family() const { return family_; }
 
  private:
   void evaluate_bdf1(double lam, double* out) const;
@@ -74,17 +77,19 @@ class RadialWeights {
   bool closed_form_;
   double kappa_;
   Damping damping_;
+  const RadialFamily& family_;
 };
 
-/// All convolution quadrature weights of all radial functions, tabulated. The last lag carries the
-/// sum of all later weights (M25): lag 0 alone is the static function.
+/// All convolution quadrature weights of all functions of a family, tabulated. The last lag carries
+/// the sum of all later weights (M25): lag 0 alone is the static function.
 class RadialTable {
  public:
   /// Tabulates 0 <= lam <= lam_max to an interpolation error <= tolerance, or about rounding (of
   /// values of order one; checked against direct evaluation between the nodes). `damping`: its time
   /// in units of dt. Cost: some hundred to some thousand short transforms.
   RadialTable(const Scheme& scheme, double kappa, double lam_max, int last_lag,
-              double tolerance = 1e-10, const Damping& damping = {});
+              double tolerance = 1e-10, const Damping& damping = {},
+              const RadialFamily& family = collocation_family());
 
   const LaneLayout& layout() const { return layout_; }
   double kappa() const { return kappa_; }
@@ -100,7 +105,7 @@ class RadialTable {
   double error(const RadialWeights& weights, int interval, const double* coefficients) const;
   int sampled_intervals(const RadialWeights& weights, double lam_max, double tolerance);
   void build(const RadialWeights& weights);
-  void set_static_parts(const Scheme& scheme);
+  void set_static_parts(const Scheme& scheme, const RadialFamily& family);
   double largest_error(const RadialWeights& weights) const;
 
   LaneLayout layout_;

@@ -1,0 +1,189 @@
+#include "assembly/pair_quadrature.hpp"
+
+#include "assembly/panel_quadrature.hpp"
+#include "quadrature/triangle_rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace bem {
+namespace {
+
+constexpr int kDeepest = 12;  // times that a triangle is split
+constexpr double kObtuse = 110 * kPi / 180;
+constexpr int kMoreForObtuse = 3;  // Gauss points per direction
+/// Cosines of the angle of the normals at a shared edge from which on it counts as sharp: for the
+/// dynamic parts, whose kernels are not symmetric about it, and for the static ones.
+constexpr double kFolded = 0.8, kSharp = -0.2;
+constexpr int kMoreForEdges = 4;
+constexpr int kStaticRadial = 3, kDynamicRadial = 4;  // exact for static kernels, for Z(0)
+
+/// Gauss points per direction of touching pairs for an error relative to the largest entry.
+int static_order(double tolerance) {
+  return std::clamp(static_cast<int>(std::ceil(2 - std::log10(tolerance))), 4, 14);
+}
+int dynamic_order(double tolerance) {
+  return std::clamp(static_cast<int>(std::ceil(1 - 0.6 * std::log10(tolerance))), 3, 12);
+}
+
+double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 u = b - a, v = d - c, w = a - c;
+  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), uw = u.dot(w),
+               vw = v.dot(w);
+  const double det = uu * vv - uv * uv;
+  double s = det > 1e-12 * uu * vv ? std::clamp((uv * vw - vv * uw) / det, 0.0, 1.0) : 0.0;
+  const double t = std::clamp((uv * s + vw) / vv, 0.0, 1.0);
+  s = std::clamp((uv * t - uw) / uu, 0.0, 1.0);
+  return (w + s * u - t * v).norm();
+}
+
+/// A part of a triangle: the barycentric coordinates of its corners, and their places.
+struct Cell {
+  std::array<std::array<double, 3>, 3> corner;
+  Vec3 place[3];
+  double longest, part;  ///< edge [m], of the triangle's area
+
+  Cell child(int index) const {
+    Cell c;
+    c.longest = 0.5 * longest;
+    c.part = 0.25 * part;
+    for (int i = 0; i < 3; ++i) {
+      // the middle child has the middles of the edges, the others a corner and two of them
+      const int from = index == 3 ? i : index, to = index == 3 ? (i + 1) % 3 : i;
+      for (int a = 0; a < 3; ++a) c.corner[i][a] = 0.5 * (corner[from][a] + corner[to][a]);
+      c.place[i] = 0.5 * (place[from] + place[to]);
+    }
+    return c;
+  }
+};
+
+}  // namespace
+
+double triangle_distance(const Vec3* a, const Vec3* b) {
+  double distance = (a[0] - b[0]).norm();
+  for (int i = 0; i < 3; ++i) {
+    distance = std::min({distance, point_triangle_distance(a[i], b[0], b[1], b[2]),
+                         point_triangle_distance(b[i], a[0], a[1], a[2])});
+    for (int j = 0; j < 3; ++j)
+      distance = std::min(distance, segment_distance(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]));
+  }
+  return distance;
+}
+
+PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, double wave_number)
+    : mesh_(mesh),
+      static_choice_(10 * tolerance),
+      dynamic_choice_(100 * tolerance),
+      wave_number_(wave_number),
+      static_order_(static_order(tolerance)),
+      dynamic_order_(dynamic_order(tolerance)) {
+  for (const Triangle& t : mesh.triangles) {
+    Panel p{triangle_normal(mesh, t), triangle_area(mesh, t), longest_edge(mesh, t), 0};
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 u = (mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]]).normalized();
+      const Vec3 v = (mesh.vertices[t[(k + 2) % 3]] - mesh.vertices[t[k]]).normalized();
+      p.widest_angle = std::max(p.widest_angle, std::acos(std::clamp(u.dot(v), -1.0, 1.0)));
+    }
+    panels_.push_back(p);
+  }
+  const int radial = kDynamicRadial + static_cast<int>(std::ceil(0.5 * longest_wave()));
+  for (const Adjacency adjacency : {Adjacency::vertex, Adjacency::edge, Adjacency::identical})
+    for (const int more : {0, kMoreForObtuse, kMoreForEdges, kMoreForObtuse + kMoreForEdges}) {
+      const int n = static_order_ + more, m = dynamic_order_ + more;
+      static_rules_[{adjacency, n}] = touching_rule(adjacency, n, kStaticRadial);
+      dynamic_rules_[{adjacency, m}] = touching_rule(adjacency, m, radial);
+    }
+}
+
+/// |s| h/c2 of the longest edge.
+double PairQuadrature::longest_wave() const {
+  double longest = 0;
+  for (const Panel& p : panels_) longest = std::max(longest, p.longest_edge);
+  return longest * wave_number_;
+}
+
+PairQuadrature::Pairing PairQuadrature::pair(int tx, int ty) const {
+  const Triangle &a = mesh_.triangles[tx], &b = mesh_.triangles[ty];
+  Pairing p{};
+  int shared = 0, rest_x = 3, rest_y = 3;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = std::find(b.begin(), b.end(), a[i]);
+    if (at == b.end()) {
+      p.x[--rest_x] = i;
+    } else {
+      p.x[shared] = i;
+      p.y[shared++] = static_cast<int>(at - b.begin());
+    }
+  }
+  for (int j = 0; j < 3; ++j)
+    if (std::find(a.begin(), a.end(), b[j]) == a.end()) p.y[--rest_y] = j;
+  p.adjacency = static_cast<Adjacency>(shared);
+  return p;
+}
+
+int PairQuadrature::touching_order(int tx, int ty, Adjacency adjacency, KernelPart part) const {
+  const bool is_static = part == KernelPart::static_part;
+  int order = is_static ? static_order_ : dynamic_order_;
+  if (std::max(panels_[tx].widest_angle, panels_[ty].widest_angle) > kObtuse)
+    order += kMoreForObtuse;
+  if (adjacency == Adjacency::edge &&
+      panels_[tx].normal.dot(panels_[ty].normal) < (is_static ? kSharp : kFolded))
+    order += kMoreForEdges;
+  return order;
+}
+
+const std::vector<PairPoint>& PairQuadrature::touching_points(int tx, int ty, Adjacency adjacency,
+                                                              KernelPart part) const {
+  const Rules& rules = part == KernelPart::static_part ? static_rules_ : dynamic_rules_;
+  return rules.at({adjacency, touching_order(tx, ty, adjacency, part)});
+}
+
+void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
+                                   std::vector<PairPoint>& out) const {
+  const RuleChoice& choice = part == KernelPart::static_part ? static_choice_ : dynamic_choice_;
+  const double wave_number = part == KernelPart::static_part ? 0 : wave_number_;
+  const auto whole = [this](int triangle) {
+    Cell c{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}, panels_[triangle].longest_edge, 1};
+    for (int k = 0; k < 3; ++k) c.place[k] = mesh_.vertices[mesh_.triangles[triangle][k]];
+    return c;
+  };
+  struct Task {
+    Cell x, y;
+    int depth;
+  };
+  std::vector<Task> stack = {{whole(tx), whole(ty), 0}};
+  while (!stack.empty()) {
+    const Task task = stack.back();
+    stack.pop_back();
+    const double distance = triangle_distance(task.x.place, task.y.place);
+    const auto rule_of = [&](const Cell& cell) {
+      const int rule = choice.choose(distance / cell.longest, wave_number * cell.longest);
+      return rule < 0 && task.depth >= kDeepest ? kTriangleRuleCount - 1 : rule;
+    };
+    const int rule_x = rule_of(task.x), rule_y = rule_of(task.y);
+    if (rule_x < 0 || rule_y < 0) {
+      const bool split_x = rule_y >= 0 || (rule_x < 0 && task.x.longest >= task.y.longest);
+      for (int i = 0; i < 4; ++i)
+        stack.push_back({split_x ? task.x.child(i) : task.x, split_x ? task.y : task.y.child(i),
+                         task.depth + 1});
+      continue;
+    }
+    const TriangleRule &x = triangle_rules()[rule_x], &y = triangle_rules()[rule_y];
+    for (int i = 0; i < x.size; ++i)
+      for (int j = 0; j < y.size; ++j) {
+        PairPoint p;
+        p.weight = task.x.part * task.y.part * x.points[i].weight * y.points[j].weight;
+        for (int a = 0; a < 3; ++a) {
+          p.x[a] = p.y[a] = 0;
+          for (int k = 0; k < 3; ++k) {
+            p.x[a] += x.points[i].barycentric[k] * task.x.corner[k][a];
+            p.y[a] += y.points[j].barycentric[k] * task.y.corner[k][a];
+          }
+        }
+        out.push_back(p);
+      }
+  }
+}
+
+}  // namespace bem

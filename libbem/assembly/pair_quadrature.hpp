@@ -1,0 +1,90 @@
+#pragma once
+
+#include "mesh/triangle_mesh.hpp"
+#include "quadrature/rule_choice.hpp"
+#include "quadrature/touching_triangles.hpp"
+
+#include <map>
+
+namespace bem {
+
+/// The static parts of the kernels, which are up to 1/r^2, or the dynamic ones, which are up to 1/r
+/// and carry the lags.
+enum class KernelPart { static_part, dynamic_part };
+
+/// Distributes quadrature points over pairs of triangles of a mesh: Sauter and Schwab's where they
+/// touch, products of triangle rules elsewhere, with the larger one split where they are close. The
+/// points of (t, u) are those of (u, t).
+class PairQuadrature {
+ public:
+  /// tolerance: relative error aimed at. wave_number: |s|_max/c2 [1/m]. The mesh must outlive this.
+  PairQuadrature(const TriangleMesh& mesh, double tolerance, double wave_number);
+
+  /// Calls f(point) for the points x on triangle `tx` and y on `ty`, by barycentric coordinates in
+  /// the triangles' own numbering of corners; weights add up to the product of the areas [m^4].
+  template <class F>
+  void for_each_point(int tx, int ty, KernelPart part, const F& f) const {
+    const bool swapped = tx > ty;
+    if (swapped) std::swap(tx, ty);
+    const double areas = panels_[tx].area * panels_[ty].area;
+    const auto give = [&](PairPoint& p) {
+      if (swapped) std::swap(p.x, p.y);
+      p.weight *= areas;
+      f(static_cast<const PairPoint&>(p));
+    };
+    const Pairing pairing = pair(tx, ty);
+    if (pairing.adjacency == Adjacency::none) {
+      std::vector<PairPoint> points;
+      add_separated(tx, ty, part, points);
+      for (PairPoint& p : points) give(p);
+      return;
+    }
+    for (const PairPoint& p : touching_points(tx, ty, pairing.adjacency, part)) {
+      PairPoint own;
+      own.weight = p.weight;
+      for (int k = 0; k < 3; ++k) {
+        own.x[pairing.x[k]] = p.x[k];
+        own.y[pairing.y[k]] = p.y[k];
+      }
+      give(own);
+    }
+  }
+
+  Vec3 position(int triangle, const double* l) const {
+    const Triangle& t = mesh_.triangles[triangle];
+    return l[0] * mesh_.vertices[t[0]] + l[1] * mesh_.vertices[t[1]] + l[2] * mesh_.vertices[t[2]];
+  }
+  const Vec3& normal(int triangle) const { return panels_[triangle].normal; }
+  double area(int triangle) const { return panels_[triangle].area; }
+  const TriangleMesh& mesh() const { return mesh_; }
+
+ private:
+  struct Panel {
+    Vec3 normal;
+    double area, longest_edge, widest_angle;
+  };
+  /// How two triangles touch, and their corners such that those that they share come first.
+  struct Pairing {
+    Adjacency adjacency;
+    int x[3], y[3];
+  };
+  Pairing pair(int tx, int ty) const;
+  const std::vector<PairPoint>& touching_points(int tx, int ty, Adjacency adjacency,
+                                                KernelPart part) const;
+  double longest_wave() const;
+  int touching_order(int tx, int ty, Adjacency adjacency, KernelPart part) const;
+  void add_separated(int tx, int ty, KernelPart part, std::vector<PairPoint>& out) const;
+
+  const TriangleMesh& mesh_;
+  RuleChoice static_choice_, dynamic_choice_;
+  double wave_number_;
+  int static_order_, dynamic_order_;
+  std::vector<Panel> panels_;
+  using Rules = std::map<std::pair<Adjacency, int>, std::vector<PairPoint>>;
+  Rules static_rules_, dynamic_rules_;
+};
+
+/// Distance of two triangles that do not touch [m].
+double triangle_distance(const Vec3* a, const Vec3* b);
+
+}  // namespace bem
