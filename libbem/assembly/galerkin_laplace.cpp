@@ -1,6 +1,6 @@
 #include "assembly/galerkin_laplace.hpp"
 
-#include "assembly/pair_quadrature.hpp"
+#include "assembly/galerkin_static.hpp"
 #include "base/parallel.hpp"
 #include "kernels/hypersingular_tensors.hpp"
 #include "kernels/tensors.hpp"
@@ -94,21 +94,6 @@ class Pairs {
   double c2_, kappa_;
   PairQuadrature quadrature_;
 };
-
-/// int phi_i L_j over a triangle, unknowns 3 shape + axis [m^2].
-Eigen::Matrix<double, 18, 9> mass_matrix(double area) {
-  Eigen::Matrix<double, 18, 9> m = Eigen::Matrix<double, 18, 9>::Zero();
-  const TriangleRule& rule = triangle_rules()[2];  // of degree 4
-  for (int q = 0; q < rule.size; ++q) {
-    const double* l = rule.points[q].barycentric;
-    const auto shape = quadratic_shapes(l);
-    for (int i = 0; i < kShapes; ++i)
-      for (int j = 0; j < 3; ++j)
-        m.block<3, 3>(3 * i, 3 * j) +=
-            rule.points[q].weight * area * shape[i] * l[j] * Mat3::Identity();
-  }
-  return m;
-}
 
 /// Basis functions of a triangle as combinations of its shape functions: unknowns 3 shape + axis by
 /// 3 basis function + axis.

@@ -201,6 +201,95 @@ void AccumulatePair(const LaneTable<T>& table, const PairScales& scales, const P
   }
 }
 
+template <class T>
+void AddPair(const T* HWY_RESTRICT sums, int padded_lanes, const PairTarget<T>& target) {
+  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
+  using V = hn::Vec<decltype(d)>;
+  const std::size_t stride = padded_lanes;
+  const auto add = [&](T* HWY_RESTRICT to, V value) {
+    hn::Store(hn::Add(hn::Load(d, to), value), d, to);
+  };
+  for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d))
+    for (int row = 0; row < target.rows; ++row) {
+      const T* w = target.row_weights + 6 * row;
+      const std::size_t first = target.row_slots[row] * target.block_columns;
+      const auto at = [&](T* block, int slot, int e) {
+        return block + ((first + slot) * 9 + e) * stride + lane;
+      };
+      // the shapes of x that the row has
+      const auto combined = [&](int sum) {
+        V total = hn::Mul(hn::Set(d, w[0]), hn::Load(d, sums + sum * stride + lane));
+#pragma GCC unroll 5
+        for (int a = 1; a < 6; ++a)
+          total =
+              hn::MulAdd(hn::Set(d, w[a]), hn::Load(d, sums + (sum + a) * stride + lane), total);
+        return total;
+      };
+      for (int e = 0; e < 9; ++e) {
+        V part[6];
+#pragma GCC unroll 6
+        for (int b = 0; b < 6; ++b) part[b] = combined(inertia_sum(e, b, 0));
+        for (int column = 0; column < target.columns; ++column) {
+          const T* v = target.column_weights + 6 * column;
+          V total = hn::Mul(hn::Set(d, v[0]), part[0]);
+#pragma GCC unroll 5
+          for (int b = 1; b < 6; ++b) total = hn::MulAdd(hn::Set(d, v[b]), part[b], total);
+          add(at(target.inertia, target.column_slots[column], e), total);
+        }
+        for (int b = 0; b < 3; ++b)
+          add(at(target.adjoint, target.corner_slots[b], e), combined(adjoint_sum(e, b, 0)));
+      }
+    }
+}
+
+template <class T>
+void AddPairStrain(const T* HWY_RESTRICT sums, int padded_lanes,
+                   const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+                   T* HWY_RESTRICT out) {
+  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
+  using V = hn::Vec<decltype(d)>;
+  const std::size_t stride = padded_lanes;
+  for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
+    const auto sum = [&](int row) { return hn::Load(d, sums + row * stride + lane); };
+    for (int a = 0; a < 6; ++a)
+      for (int i = 0; i < 3; ++i) {
+        V j[3];
+        for (int l = 0; l < 3; ++l) {
+          const int e = 3 * i + l;
+          j[l] = hn::Add(sum(adjoint_sum(e, 0, a)),
+                         hn::Add(sum(adjoint_sum(e, 1, a)), sum(adjoint_sum(e, 2, a))));
+        }
+        const V p = sum(kSumPressure + 6 * i + a);
+        for (int c = 0; c < 6; ++c) {
+          T* HWY_RESTRICT to = out + ((a * 3 + i) * 6 + c) * stride + lane;
+          V total = hn::MulAdd(hn::Set(d, static_cast<T>(pressure[c])), p, hn::Load(d, to));
+          for (int l = 0; l < 3; ++l)
+            total = hn::MulAdd(hn::Set(d, static_cast<T>(tractions(l, c))), j[l], total);
+          hn::Store(total, d, to);
+        }
+      }
+  }
+}
+
+void AddPairDouble(const double* HWY_RESTRICT sums, int padded_lanes,
+                   const PairTarget<double>& target) {
+  AddPair(sums, padded_lanes, target);
+}
+void AddPairFloat(const float* HWY_RESTRICT sums, int padded_lanes,
+                  const PairTarget<float>& target) {
+  AddPair(sums, padded_lanes, target);
+}
+void AddPairStrainDouble(const double* HWY_RESTRICT sums, int padded_lanes,
+                         const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+                         double* HWY_RESTRICT out) {
+  AddPairStrain(sums, padded_lanes, tractions, pressure, out);
+}
+void AddPairStrainFloat(const float* HWY_RESTRICT sums, int padded_lanes,
+                        const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+                        float* HWY_RESTRICT out) {
+  AddPairStrain(sums, padded_lanes, tractions, pressure, out);
+}
+
 void AccumulatePairDouble(const LaneTable<double>& table, const PairScales& scales,
                           const PairBatch& batch, PairScratch<double>& scratch,
                           double* HWY_RESTRICT sums) {
@@ -225,6 +314,10 @@ namespace bem {
 
 HWY_EXPORT(AccumulatePairDouble);
 HWY_EXPORT(AccumulatePairFloat);
+HWY_EXPORT(AddPairDouble);
+HWY_EXPORT(AddPairFloat);
+HWY_EXPORT(AddPairStrainDouble);
+HWY_EXPORT(AddPairStrainFloat);
 
 void PairBatch::pad() {
   for (int q = size; q < padded_size(); ++q) {
@@ -241,6 +334,26 @@ void accumulate_pair(const LaneTable<double>& table, const PairScales& scales,
 void accumulate_pair(const LaneTable<float>& table, const PairScales& scales,
                      const PairBatch& batch, PairScratch<float>& scratch, float* sums) {
   HWY_DYNAMIC_DISPATCH(AccumulatePairFloat)(table, scales, batch, scratch, sums);
+}
+
+void add_pair(const double* sums, int padded_lanes, const PairTarget<double>& target) {
+  HWY_DYNAMIC_DISPATCH(AddPairDouble)(sums, padded_lanes, target);
+}
+
+void add_pair(const float* sums, int padded_lanes, const PairTarget<float>& target) {
+  HWY_DYNAMIC_DISPATCH(AddPairFloat)(sums, padded_lanes, target);
+}
+
+void add_pair_strain(const double* sums, int padded_lanes,
+                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+                     double* out) {
+  HWY_DYNAMIC_DISPATCH(AddPairStrainDouble)(sums, padded_lanes, tractions, pressure, out);
+}
+
+void add_pair_strain(const float* sums, int padded_lanes,
+                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+                     float* out) {
+  HWY_DYNAMIC_DISPATCH(AddPairStrainFloat)(sums, padded_lanes, tractions, pressure, out);
 }
 
 void accumulate_pair_reference(const LaneTable<double>& table, const PairScales& scales,

@@ -66,7 +66,35 @@ void accumulate_pair(const LaneTable<double>& table, const PairScales& scales,
 void accumulate_pair(const LaneTable<float>& table, const PairScales& scales,
                      const PairBatch& batch, PairScratch<float>& scratch, float* sums);
 
-/// The same in plain scalar code, for tests.
+/// Where the sums of a pair go: combinations of the shape functions of both triangles, which are
+/// rows and columns of blocks [row][column][3x3 entry][padded lane].
+template <class T>
+struct PairTarget {
+  int rows, columns;
+  const T* row_weights;     ///< [rows][6]
+  const T* column_weights;  ///< [columns][6]
+  const int* row_slots;     ///< by row: its place in the blocks
+  const int* column_slots;
+  const int* corner_slots;  ///< of the three corners of y, which tractions belong to
+  std::size_t block_columns;
+  T* inertia;
+  T* adjoint;
+};
+
+/// Adds Z and J of a pair to their targets.
+void add_pair(const double* sums, int padded_lanes, const PairTarget<double>& target);
+void add_pair(const float* sums, int padded_lanes, const PairTarget<float>& target);
+
+/// out[shape of x][3 axes x 6][padded lane] += J of tractions that are constant on y: `tractions`
+/// (3 x 6), and `pressure` times the sums of the pressure kernel.
+void add_pair_strain(const double* sums, int padded_lanes,
+                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+                     double* out);
+void add_pair_strain(const float* sums, int padded_lanes,
+                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+                     float* out);
+
+/// The sums in plain scalar code, for tests.
 void accumulate_pair_reference(const LaneTable<double>& table, const PairScales& scales,
                                const PairBatch& batch, double* sums);
 

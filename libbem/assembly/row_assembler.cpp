@@ -10,20 +10,6 @@
 
 namespace bem {
 
-double largest_symbol(const Scheme& scheme) {
-  constexpr int kSamples = 64;
-  constexpr double kWeaklyDamped = 0.31;  // real by imaginary part: exp(-z r/(c2 dt))
-  double largest = 0;
-  for (int i = 0; i <= kSamples; ++i) {
-    const StageMatrixC delta = scheme.delta(std::polar(1.0, kPi * i / kSamples));
-    const StageVectorC values = delta.eigenvalues();
-    largest = std::max(largest, values.cwiseAbs().minCoeff());
-    for (const Complex& z : values)
-      if (z.real() <= kWeaklyDamped * std::abs(z.imag())) largest = std::max(largest, std::abs(z));
-  }
-  return largest;
-}
-
 RowAssembler::RowAssembler(const TriangleMesh& mesh, double extent, const Discretisation& d)
     : mesh_(mesh),
       discretisation_(d),

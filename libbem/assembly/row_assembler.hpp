@@ -1,8 +1,8 @@
 #pragma once
 
+#include "assembly/discretisation.hpp"
 #include "assembly/panel_sums.hpp"
 #include "assembly/vertex_fan.hpp"
-#include "base/material.hpp"
 #include "kernels/radial_table.hpp"
 
 #include <optional>
@@ -22,16 +22,6 @@ struct BlockRow {
 
   const T* h_block(int vertex) const { return &h[std::size_t(vertex) * 9 * padded_lanes]; }
   const T* g_block(int vertex) const { return &g[std::size_t(vertex) * 6 * padded_lanes]; }
-};
-
-/// What determines the matrices of a body besides its mesh.
-struct Discretisation {
-  Material material;
-  Scheme scheme = Scheme::radau2();
-  double dt = 0;           ///< [s]
-  int history_length = 0;  ///< number of past steps kept; multistep methods: >= 0, others >= 1
-  double quadrature_tolerance = 1e-6;
-  Damping damping = {};
 };
 
 /// Assembles all lags of H, G, D, Q and C together in real arithmetic, one block row at a time. The
@@ -94,10 +84,5 @@ class RowAssembler {
   PanelQuadrature quadrature_;
   VertexFans fans_;
 };
-
-/// |s|_max dt of the scheme: the largest modulus on the unit circle of the principal eigenvalue of
-/// Delta, and of others that are weakly damped. (That of radau2 is strongly damped where it is
-/// larger than the principal one.)
-double largest_symbol(const Scheme& scheme);
 
 }  // namespace bem
