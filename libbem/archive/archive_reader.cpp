@@ -215,6 +215,13 @@ void Archive::check_scheme() {
 
 void Archive::read_report() {
   report_.lam = file_.double_attribute("/report", "lam");
+  const Discretisation& d = discretisation_;
+  if (kind_ == ModelKind::dynamic) {
+    const double lam = traversal_steps(geometry_, d.material, d.dt);
+    if (!(std::abs(report_.lam - lam) <= 1e-6 * lam))
+      refuse("its time step does not fit its body and material");
+    if (is_too_short(d.history_length, lam)) refuse("has an impossible length of the history");
+  }
   report_.row_sum_residual = file_.double_attribute("/report", "row_sum_residual");
   report_.rotation_residual = file_.double_attribute("/report", "rotation_residual");
   report_.condition = file_.double_attribute("/report", "condition");

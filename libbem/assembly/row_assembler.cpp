@@ -2,6 +2,7 @@
 
 #include "assembly/translation_identity.hpp"
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "kernels/tensors.hpp"
 
 #include <algorithm>
@@ -152,6 +153,7 @@ std::vector<Eigen::Matrix3Xd> RowAssembler::assemble_loads(int vertex,
   std::vector<Eigen::Matrix3Xd> out(layout().count(), Eigen::Matrix3Xd::Zero(3, cases));
   work.sums.resize(kPanelSums * stride);
   for (const PanelLoad& load : loads) {
+    check_interruption();
     std::fill(work.sums.begin(), work.sums.end(), 0.0);
     quadrature_.for_each_batch(vertex, load.triangle, work.batch, [&](const PointBatch& batch) {
       accumulate_panel(table_.lanes(), scales_, batch, quadrature_.normal(load.triangle),

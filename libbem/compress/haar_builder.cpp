@@ -227,7 +227,8 @@ std::unique_ptr<MatrixFamily> HaarBuilder::finish() {
   Choice choice(selection_, parts_);
   for (Part& part : parts_) part.filter([&](float v) { return choice.keeps(v); });
   const double all = selection_.seen().squares();
-  require(std::isfinite(all), "the entries of matrices are finite");
+  if (!std::isfinite(all))
+    throw Error(ErrorCode::numerical, "the entries of the matrices are too large to be compressed");
   const double dropped = std::max(0.0, all - squares_of_parts());
   const bool by_ratio = options_.ratio > 0;
   const double wanted = by_ratio && all > 0 ? std::sqrt(dropped / all) : options_.tolerance;

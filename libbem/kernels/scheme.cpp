@@ -179,9 +179,9 @@ int default_history_length(const Scheme& scheme, double lam) {
   return static_cast<int>(std::floor(lam + 2) + std::ceil(margin * std::sqrt(lam)));
 }
 
-int damped_history_length(double lam, double time) {
+double damped_history_length(double lam, double time) {
   constexpr double kDeviations = 3, kTimes = 5;
-  return static_cast<int>(std::ceil(kDeviations * std::sqrt(lam * time) + kTimes * time));
+  return std::ceil(kDeviations * std::sqrt(lam * time) + kTimes * time);
 }
 
 int history_length_for_tolerance(const Scheme& scheme, double lam, double tolerance) {

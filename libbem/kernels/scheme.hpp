@@ -96,7 +96,13 @@ int default_history_length(const Scheme& scheme, double lam);
 
 /// Steps that material damping adds to a history: it spreads the arrival of waves, and the response
 /// of a point to its own load fades with the retardation time (`time`, in units of dt).
-int damped_history_length(double lam, double time);
+double damped_history_length(double lam, double time);
+
+/// Is a history of n steps of no use for lam? One that is shorter than lam is unstable; matrices of
+/// much shorter ones would be of waves that are resolved in a small part of the body only.
+inline bool is_too_short(int n, double lam) {
+  return lam > 8.0 * (n + 1);
+}
 
 /// Smallest n for which the absolute weights of exp(-s r_max/c2) beyond lag n sum to at most
 /// `tolerance`.

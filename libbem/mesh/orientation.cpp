@@ -28,8 +28,9 @@ void measure(const TriangleMesh& nodes, Component& component) {
   }
 }
 
-bool contains(const BoundingBox& box, const Vec3& p) {
-  return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
+bool contains(const BoundingBox& box, const Vec3& p, double margin = 0) {
+  return (p.array() >= box.min.array() - margin).all() &&
+         (p.array() <= box.max.array() + margin).all();
 }
 
 /// A point just below the surface of the component, in the region that it encloses.
@@ -40,19 +41,24 @@ Vec3 inner_point(const TriangleMesh& nodes, const Component& component, int t) {
 }
 
 /// Is `inner` within `outer`? Points just below the surface of `inner` are asked instead of its
-/// vertices, which lie in both surfaces where the parts touch; several of them, by majority,
-/// because parts may also overlap.
+/// vertices, which lie in both surfaces where the parts touch. A part that sticks out is not
+/// within, but one may cut the other a little, as in scans.
 bool lies_within(const TriangleMesh& nodes, const Component& inner, const Component& outer) {
-  constexpr std::size_t kVotes = 5;
-  int balance = 0;
-  for (std::size_t vote = 0; vote < kVotes; ++vote) {
-    const int t = inner.triangles[vote * inner.triangles.size() / kVotes];
+  constexpr std::size_t kMostVotes = 64;
+  constexpr double kOutside = 0.05, kMargin = 0.01;  // of the votes, of the size
+  const double margin = kMargin * outer.box.diagonal();
+  if (!contains(outer.box, inner.box.min, margin) || !contains(outer.box, inner.box.max, margin))
+    return false;
+  const std::size_t votes = std::min(kMostVotes, inner.triangles.size());
+  const auto most = static_cast<std::size_t>(kOutside * static_cast<double>(votes));
+  std::size_t outside = 0;
+  for (std::size_t vote = 0; vote < votes && outside <= most; ++vote) {
+    const int t = inner.triangles[vote * inner.triangles.size() / votes];
     const Vec3 p = inner_point(nodes, inner, t);
-    const bool inside =
-        contains(outer.box, p) && std::abs(winding_number(nodes, outer.triangles, p)) > 0.5;
-    balance += inside ? 1 : -1;
+    if (!contains(outer.box, p) || std::abs(winding_number(nodes, outer.triangles, p)) <= 0.5)
+      ++outside;
   }
-  return balance > 0;
+  return outside <= most;
 }
 
 void find_depths(const TriangleMesh& nodes, std::vector<Component>& components) {

@@ -2,15 +2,24 @@
 
 #include "scene/json_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bem {
 namespace {
 
+constexpr std::size_t kLongestName = 1000;
+
 Material material_from(const JsonDocument& document) {
   JsonReader reader(JsonValue(document, 0), "a material");
   Material material;
   material.name = reader.required("name").text();
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (material.name.size() > kLongestName ||
+      std::any_of(material.name.begin(), material.name.end(), is_control))
+    throw error_at(reader.required("name").location(),
+                   "a name has at most " + std::to_string(kLongestName) +
+                       " bytes, none of which are control characters");
   material.density = reader.required("density").positive();
   material.poisson_ratio = reader.required("poisson_ratio").number_in(0, 0.5);
   const std::string modulus = reader.required_one_of({"shear_modulus", "youngs_modulus"});

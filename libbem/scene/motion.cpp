@@ -55,6 +55,19 @@ RigidMotion motion_at(const Motion& motion, double t) {
           linear(a.translate, b.translate, s)};
 }
 
+double fastest_turn(const Motion& motion) {
+  double fastest = 0;
+  for (std::size_t k = 1; k < motion.size(); ++k) {
+    const AxisAngle &a = motion[k - 1].rotate, &b = motion[k].rotate;
+    const double same_axis = std::abs(b.angle - a.angle),
+                 other = std::abs(a.angle) + std::abs(b.angle);
+    const bool parallel = a.axis.cross(b.axis).norm() < 1e-9 && a.axis.dot(b.axis) > 0;
+    const double turn = parallel ? same_axis : std::min(other, kPi);
+    fastest = std::max(fastest, turn / (motion[k].time - motion[k - 1].time));
+  }
+  return fastest;
+}
+
 std::vector<Vec3> placed_at(const MeshObstacle& obstacle, const std::vector<Vec3>& points,
                             double t) {
   const RigidMotion motion = motion_at(obstacle.motion, t);

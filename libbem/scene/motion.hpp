@@ -24,6 +24,9 @@ struct RigidMotion {
 /// to 1.
 RigidMotion motion_at(const Motion& motion, double t);
 
+/// How fast a motion turns between its keyframes [rad/s]: never faster than this.
+double fastest_turn(const Motion& motion);
+
 /// Where points of an obstacle's scaled mesh are at time `t` [s], in world coordinates [m].
 std::vector<Vec3> placed_at(const MeshObstacle& obstacle, const std::vector<Vec3>& points,
                             double t);

@@ -50,7 +50,30 @@ class Inputs(CliCase):
         self.material("bad.json", poisson_ratio=0.7)
         done = self.run_tool("sphere.obj", "bad.json", "-o", "a.bem", "--dt", 0.01, code=3)
         self.assert_error(done, "bad.json:1:", "/poisson_ratio")
+        for name in ("rub\0ber", "two\nlines", "x" * 1001):
+            (self.folder / "bad.json").write_text(json.dumps(
+                {**json.loads((self.folder / "rubber.json").read_text()), "name": name}))
+            done = self.run_tool("sphere.obj", "bad.json", "-o", "a.bem", "--dt", 0.01, code=3)
+            self.assert_error(done, "bad.json:1:", "/name")
         self.assertEqual(self.files(), ["bad.json", *INPUTS])
+
+    def test_absurd_histories(self):
+        for options, message in [(("--damping", "kelvin_voigt:1e9", "--dt", 0.01), "steps long"),
+                                 (("--history", 1, "--dt", 1e-4), "too short")]:
+            done = self.run_tool("sphere.obj", "rubber.json", "-o", "a.bem", *options, code=2)
+            self.assert_error(done, message)
+        self.assertEqual(self.files(), INPUTS)
+
+    def test_interruption_of_one_that_waits_for_a_pipe(self):
+        for mesh, material in [("pipe.obj", "rubber.json"), ("sphere.obj", "pipe.obj")]:
+            os.mkfifo(self.folder / "pipe.obj")
+            process = subprocess.Popen([BEMPRECOMP, mesh, material, "-o", "a.bem", "--dt", "0.01"], cwd=self.folder,
+                                       stderr=subprocess.PIPE, text=True)
+            time.sleep(0.5)
+            process.send_signal(signal.SIGTERM)
+            self.assertIn("interrupted", process.communicate(timeout=10)[1])
+            self.assertEqual(process.returncode, 143)
+            (self.folder / "pipe.obj").unlink()
 
     def test_time_step_comes_from_option_or_material(self):
         done = self.run_tool("sphere.obj", "rubber.json", "-o", "a.bem", code=2)

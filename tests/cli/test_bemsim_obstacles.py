@@ -49,6 +49,12 @@ class Obstacles(ObstacleCase):
                     self.assertAlmostEqual(self.drop(mesh, height=0.2, side=side), 0, delta=1e-4)
                     self.assertNotIn("warning", self.messages)
 
+    def test_one_that_turns_too_far_in_a_step_is_warned_of(self):
+        for degrees, warned in [(60, False), (360, True)]:
+            self.drop(SHEET, steps=1, motion=[
+                {"time": 0}, {"time": self.scene["time_step"], "rotate": {"axis": [0, 1, 0], "angle_deg": degrees}}])
+            self.assertEqual("360 degrees in a time step" in self.messages, warned)
+
     def test_a_body_may_start_on_a_sheet(self):
         self.assertAlmostEqual(self.drop(turned(SHEET), height=0.1), 0, delta=1e-4)
 
@@ -191,7 +197,14 @@ class Impossible(ObstacleCase):
         self.assertIn("/bodies/0", text)
         self.assertIn("by 360 degrees; from about 180 degrees on, at t = 0.5", text)
         self.assertIn("welds", text)
-        self.scene["bodies"][0]["handles"][0]["release_time"] = 0.45
+        handles = self.scene["bodies"][0]["handles"]
+        handles[0]["motion"][1].update(time=1e6, rotate={"axis": [1, 0, 0], "angle_deg": 3.6e11})  # far ahead
+        self.assertIn("turn against each other", self.check().stderr)
+        handles[1]["motion"] = handles[0]["motion"]  # a shaft that is driven at both ends
+        self.assertNotIn("turn against each other", self.check().stderr)
+        handles[0]["motion"] = [{"time": 0}, {"time": 1, "rotate": {"axis": [1, 0, 0], "angle_deg": -180}}]
+        handles[1]["motion"] = [{"time": 0}, {"time": 1, "rotate": {"axis": [1, 0, 0], "angle_deg": 180}}]
+        handles[0]["release_time"] = 0.45
         self.assertNotIn("turn against each other", self.check().stderr)
 
 

@@ -222,6 +222,13 @@ class HostileArchives(CliCase):
                 with self.subTest(place=place, name=name, change=change):
                     self.assert_change_refused(lambda file: apply(file[place].attrs, name))
 
+    def test_contradictions(self):
+        """Numbers that are possible, but not together: they would take forever."""
+        self.make("lowrank")
+        for place, name, factor in [("material", "shear_modulus", 1e-3), ("material", "density", 1e4), ("scheme", "dt", 0.1)]:
+            with self.subTest(name=name):
+                self.assert_change_refused(lambda file: file[place].attrs.__setitem__(name, file[place].attrs[name] * factor))
+
     def test_numbers(self):
         for kind in KINDS:
             self.make(kind)

@@ -25,6 +25,7 @@ namespace {
 
 constexpr double kMostTraversalSteps = 20000;
 constexpr int kLongHistory = 60;
+constexpr double kLongestHistory = 100000;
 
 double seconds_of(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -127,7 +128,7 @@ void estimate_bytes(bool sample, Plan& plan) {
   plan.archive_bytes = archive_bytes(plan.geometry, plan.options, plan.stored);
 }
 
-int history_length(const Options& o, const Discretisation& d, double lam) {
+double history_length(const Options& o, const Discretisation& d, double lam) {
   if (o.history) return *o.history;
   return damped_history_length(lam, d.damping.time / d.dt) +
          (o.history_tolerance ? history_length_for_tolerance(d.scheme, lam, *o.history_tolerance)
@@ -147,7 +148,16 @@ void plan_history(const Options& o, Plan& plan) {
     throw Error(ErrorCode::usage,
                 "the time step " + to_text(d.dt) + " s is too small: a shear wave takes " +
                     to_text(std::round(plan.lam)) + " steps across the body; use a larger --dt");
-  d.history_length = history_length(o, d, plan.lam);
+  const double length = history_length(o, d, plan.lam);
+  if (!(length <= kLongestHistory))
+    throw Error(ErrorCode::usage, "the history would be " + to_text(std::round(length)) +
+                                      " steps long; use a larger --dt or a smaller --damping");
+  d.history_length = static_cast<int>(length);
+  if (is_too_short(d.history_length, plan.lam))
+    throw Error(ErrorCode::usage, "--history " + std::to_string(d.history_length) +
+                                      " is too short: a shear wave takes " +
+                                      to_text(std::round(plan.lam)) +
+                                      " steps across the body; leave it away or use a larger --dt");
 }
 
 /// Factorisation, inverse and, if asked for, solution for n right-hand sides, for one initial

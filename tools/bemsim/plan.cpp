@@ -136,13 +136,36 @@ void add_warnings(Plan& plan) {
   }
 }
 
+/// Contact sees an obstacle at the beginning and at the end of a step, and takes the way between
+/// for straight.
+void warn_of_fast_obstacles(Plan& plan) {
+  constexpr double kMostTurn = kPi / 2;  // per step
+  if (!plan.scene.contact.enabled) return;
+  for (const ObstacleSpec& obstacle : plan.scene.obstacles) {
+    const auto* mesh = std::get_if<MeshObstacle>(&obstacle.shape);
+    if (!mesh) continue;
+    const double turn = fastest_turn(mesh->motion) * plan.scene.time_step;
+    if (turn > kMostTurn)
+      plan.warnings.push_back(where(obstacle.location) + ": the obstacle " +
+                              in_quotes(obstacle.name) + " turns by up to " +
+                              to_text(std::round(turn * 180 / kPi)) +
+                              " degrees in a time step, which contact does not see: it may pass "
+                              "through bodies; use a shorter time step or a slower motion");
+  }
+}
+
 void describe_welds(Plan& plan) {
   for (const WeldPlan& weld : plan.welds) {
     plan.notes.push_back("weld of " + weld_text(plan, weld));
     const std::string place = where(weld.spec->location) + ": the weld of " + weld_text(plan, weld);
+    const bool within = weld.farthest <= weld.spec->tolerance;
     if (weld.nearly > 0)
       plan.warnings.push_back(place + "; " + nearly_text(weld) +
-                              ": raise its \"tolerance\" to join them, or move them apart");
+                              (within ? ", although that is within its \"tolerance\": the partner "
+                                        "has been joined to another one; lower it below the "
+                                        "distances between the vertices of one surface"
+                                      : ": raise its \"tolerance\" to join them, or move them "
+                                        "apart"));
     if (weld.alone > 0)
       plan.warnings.push_back(place + "; " + count_text(weld.alone, "vertex") + " of one surface " +
                               (weld.alone == 1 ? "lies" : "lie") +
@@ -239,6 +262,7 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
   if (plan->scene.contact.enabled) plan_obstacles(*plan, source);
   plan->memory = memory_of(plan->bodies, plan->scene.contact.enabled);
   add_warnings(*plan);
+  warn_of_fast_obstacles(*plan);
   describe_welds(*plan);
   plan->twists = find_twists(plan->scene, static_cast<double>(plan->steps) * plan->scene.time_step);
   for (const Twist& twist : plan->twists) plan->warnings.push_back(twist_text(plan->scene, twist));

@@ -27,25 +27,39 @@ std::vector<Group> groups_of(const BodySpec& body, double duration) {
   return groups;
 }
 
-/// Times at which the rotation of either group is asked for: near enough that it cannot turn by
-/// half a turn between two of them.
-std::vector<double> sample_times(const Group& a, const Group& b) {
+/// How far a group may turn between two times without a keyframe in between [rad], at most.
+double turn_between(const Group& group, double begin, double end) {
+  double turn = 0;
+  for (std::size_t k = 1; k < group.motion.size(); ++k) {
+    const Keyframe &last = group.motion[k - 1], &next = group.motion[k];
+    if (next.time <= begin || last.time >= end) continue;
+    turn = (std::abs(last.rotate.angle) + std::abs(next.rotate.angle)) * (end - begin) /
+           (next.time - last.time);
+  }
+  return turn;
+}
+
+/// Calls f(t) at times of the motion of both groups that are near enough that neither can turn by
+/// half a turn between two of them, until f returns false or it has been called very often.
+template <class F>
+void sample(const Group& a, const Group& b, const F& f) {
   constexpr double kStep = kPi / 8;
+  constexpr long kMostSamples = 200000;
   const double end = std::min(a.end, b.end);
   std::vector<double> keys{0, end};
-  double turns = kPi;  // between rotations about different axes the way is the shortest
   for (const Group* g : {&a, &b})
-    for (const Keyframe& k : g->motion) {
+    for (const Keyframe& k : g->motion)
       if (k.time > 0 && k.time < end) keys.push_back(k.time);
-      turns += std::abs(k.rotate.angle);
-    }
   std::sort(keys.begin(), keys.end());
-  const int parts = 1 + static_cast<int>(2 * turns / kStep);
-  std::vector<double> times{0};
-  for (std::size_t i = 1; i < keys.size(); ++i)
-    for (int k = 1; k <= parts; ++k)
-      times.push_back(keys[i - 1] + (keys[i] - keys[i - 1]) * k / parts);
-  return times;
+  long samples = 0;
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    const double begin = keys[i - 1], length = keys[i] - begin;
+    // between rotations about different axes the way is the shortest: less than half a turn
+    const double turns = kPi + turn_between(a, begin, keys[i]) + turn_between(b, begin, keys[i]);
+    const double parts = std::ceil(2 * turns / kStep);
+    for (double k = 1; k <= parts; ++k)
+      if (++samples > kMostSamples || !f(begin + length * (k / parts))) return;
+  }
 }
 
 /// The rotation vector of r that is nearest to `last`: full turns are counted.
@@ -59,14 +73,16 @@ Vec3 continued(const Mat3& r, const Vec3& last) {
 }
 
 Twist twist_of(const Group& a, const Group& b) {
+  constexpr double kFar = 3 * kLimit;  // what comes after it does not matter
   Twist twist;
   Vec3 turn = Vec3::Zero();
-  for (double t : sample_times(a, b)) {
+  sample(a, b, [&](double t) {
     turn = continued(motion_at(a.motion, t).rotation.transpose() * motion_at(b.motion, t).rotation,
                      turn);
     if (turn.norm() > kLimit * (1 + 1e-9) && twist.angle <= kLimit * (1 + 1e-9)) twist.since = t;
     twist.angle = std::max(twist.angle, turn.norm());
-  }
+    return twist.angle < kFar;
+  });
   return twist;
 }
 

@@ -29,7 +29,7 @@ void catch_interrupts() {
   for (int signal : {SIGINT, SIGTERM}) {
     struct sigaction action {};
     action.sa_handler = remember;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    action.sa_flags = static_cast<int>(SA_RESETHAND);  // what waits for a pipe ends
     sigemptyset(&action.sa_mask);
     sigaction(signal, &action, nullptr);
   }

@@ -26,6 +26,10 @@ int report(Log& log) {
   try {
     throw;
   } catch (const Error& e) {
+    if (const int signal = pending_interrupt()) {  // which is why a file cannot be opened
+      log.error(Interrupted(signal).what());
+      return 128 + signal;
+    }
     log.error(e.what());
     return exit_code(e.code());
   } catch (const Interrupted& e) {

@@ -63,3 +63,17 @@ TEST_CASE("what a sheet cuts of a body overlaps") {
   CHECK(overlap_of(at(kCube, {0, 0, 0.5}), layers) == 0);
   CHECK(overlap_of(at(kCube, {0, 0, -0.51}), layers) == 0);
 }
+
+TEST_CASE("bodies at one place overlap although their coordinates are rounded") {
+  for (double edge : {1.0, 0.6, 0.3, 0.2, 0.1, 0.05})
+    for (const Vec3& place : {Vec3(0, 0, 0), Vec3(0.1, 0.7, -0.3)}) {
+      const TriangleMesh cube = at(box({edge, edge, edge}, {2, 2, 2}), place);
+      CHECK(overlap_of(cube, cube) > 0.2 * edge);
+      TriangleMesh turned = cube;  // by a quarter about the vertical through its centre
+      for (Vec3& v : turned.vertices) {
+        const Vec3 d = v - place;
+        v = place + Vec3(-d[1], d[0], d[2]);
+      }
+      CHECK(overlap_of(cube, turned) > 0.2 * edge);
+    }
+}

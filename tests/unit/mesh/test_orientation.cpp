@@ -100,3 +100,11 @@ TEST_CASE("parts that touch are told apart: on top is a solid, under the surface
     CHECK(surface_components(mesh)[1].is_solid() == !cavity);
   }
 }
+
+TEST_CASE("a part that sticks out of another one is a solid of its own, however little") {
+  for (double height : {0.35, 0.45, 0.5, 0.55}) {  // of a cube of 0.3 in one of 1
+    TriangleMesh mesh = combined(kCube, kCube, 0.3, {0.07, 0.03, height}, false);
+    CHECK(orient(mesh).size() == (height == 0.35 ? 1 : 0));
+    CHECK(surface_components(mesh)[1].is_solid() == (height > 0.35));
+  }
+}
