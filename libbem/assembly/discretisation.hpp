@@ -5,6 +5,12 @@
 
 namespace bem {
 
+/// Discretisation in space.
+enum class SpatialMethod {
+  collocation,  ///< linear displacements, at the vertices: the paper's
+  galerkin      ///< hypersingular equation, displacements with reconstructed edges
+};
+
 /// What determines the matrices of a body besides its mesh.
 struct Discretisation {
   Material material;
@@ -13,6 +19,7 @@ struct Discretisation {
   int history_length = 0;  ///< number of past steps kept; multistep methods: >= 0, others >= 1
   double quadrature_tolerance = 1e-6;
   Damping damping = {};
+  SpatialMethod method = SpatialMethod::collocation;
 };
 
 /// |s|_max dt of the scheme: the largest modulus on the unit circle of the principal eigenvalue of

@@ -7,7 +7,7 @@ namespace bem {
 namespace {
 
 /// The series of p(Delta(zeta)) in powers of zeta.
-std::vector<StageMatrix> polynomial_series(const Scheme& scheme, const double (&p)[3]) {
+std::vector<StageMatrix> polynomial_series(const Scheme& scheme, const std::array<double, 3>& p) {
   const std::vector<StageMatrix>& delta = scheme.delta_coefficients();
   const int s = scheme.stages();
   std::vector<StageMatrix> series(2 * delta.size() - 1, StageMatrix::Zero(s, s));
@@ -21,7 +21,8 @@ std::vector<StageMatrix> polynomial_series(const Scheme& scheme, const double (&
 
 }  // namespace
 
-LagProduct::LagProduct(const Scheme& scheme, const LaneLayout& layout, const double (&p)[3])
+LagProduct::LagProduct(const Scheme& scheme, const LaneLayout& layout,
+                       const std::array<double, 3>& p)
     : count_(layout.count()) {
   const std::vector<StageMatrix> series = polynomial_series(scheme, p);
   /// What the weight `x` of lag k, which is in lane `from`, contributes to the later ones.

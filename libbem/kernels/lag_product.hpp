@@ -2,6 +2,7 @@
 
 #include "kernels/contour.hpp"
 
+#include <array>
 #include <vector>
 
 namespace bem {
@@ -11,7 +12,7 @@ namespace bem {
 class LagProduct {
  public:
   /// p(d) = p[0] + p[1] d + p[2] d^2.
-  LagProduct(const Scheme& scheme, const LaneLayout& layout, const double (&p)[3]);
+  LagProduct(const Scheme& scheme, const LaneLayout& layout, const std::array<double, 3>& p);
 
   /// Lanes of the product: out[lane] += sum of factor * in[lane'].
   struct Term {

@@ -32,13 +32,17 @@ class RotationResidual {
     moved += s * s *
              model_.initial_body_force[0].block(3 * slab.first, 3, 3 * (slab.last - slab.first), 3);
     largest_ = std::max(largest_, moved.cwiseAbs().maxCoeff());
+    size_ = std::max(size_, slab.initial_h[0].cwiseAbs().maxCoeff());
   }
-  double value() const { return largest_ / model_.geometry.extent; }
+  double value() const {
+    const double size = model_.discretisation.method == SpatialMethod::galerkin ? size_ : 1;
+    return largest_ / (size * model_.geometry.extent);
+  }
 
  private:
   const BodyModel& model_;
   Eigen::MatrixXd turns_;
-  double largest_ = 0;
+  double largest_ = 0, size_ = 0;
 };
 
 template <class T>
@@ -128,6 +132,8 @@ void make_regular(const BodyModel& model, std::vector<InitialMatrix>& h) {
     const double size = scaled.col(c).cwiseAbs().maxCoeff();
     scaled.col(c) *= (c < 3 ? 1 : model.geometry.extent) / size;
   }
+  if (model.discretisation.method == SpatialMethod::galerkin)
+    scaled *= h.at(0).real.cwiseAbs().maxCoeff();
   h.at(0).real.noalias() -= scaled * rigid_part(model.geometry.nodes);
 }
 
@@ -167,11 +173,11 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
                        const Progress& progress) {
   const int n = static_cast<int>(model.nodes());
   const bool tractions = options.loads != Loads::none;
-  SlabAssembler<T> assembler(model, assembly_precision(options));
+  const auto assembler = make_slab_assembler<T>(model, assembly_precision(options));
   Targets<T> targets;
   const auto builder = [&](int count) { return make_direct_builder<T>(options.codec, n, count); };
-  if (model.has_history()) targets.h = builder(assembler.lag_count());
-  if (model.has_history() && tractions) targets.g = builder(assembler.lag_count());
+  if (model.has_history()) targets.h = builder(assembler->lag_count());
+  if (model.has_history() && tractions) targets.g = builder(assembler->lag_count());
   if (options.inverse == InverseKind::dense) {
     targets.dense_h = dense_matrices(model);
     if (tractions) targets.dense_g = dense_matrices(model);
@@ -181,7 +187,7 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
       if (tractions) targets.initial_g.push_back(builder(parts));
     });
   }
-  assemble_all(assembler, model, direct_slabs(options.codec, n), targets, progress);
+  assemble_all(*assembler, model, direct_slabs(options.codec, n), targets, progress);
   take_families(targets, model);
   make_regular(model, targets.dense_h);
   for (std::size_t i = 0; i < targets.dense_h.size(); ++i)
@@ -256,11 +262,11 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
 
 void assemble_compressed(BodyModel& model, const PrecomputeOptions& options,
                          const Progress& progress) {
-  SlabAssembler<float> assembler(model, assembly_precision(options));
+  const auto assembler = make_slab_assembler<float>(model, assembly_precision(options));
   if (progress) progress("assembly", 0);
   const std::vector<Slab> slabs = make_partition(model.geometry.nodes.vertices, {});
-  Targets<float> targets = compressed_targets(assembler, slabs, model, options);
-  assemble_all(assembler, model, slabs, targets, progress);
+  Targets<float> targets = compressed_targets(*assembler, slabs, model, options);
+  assemble_all(*assembler, model, slabs, targets, progress);
   take_families(targets, model);
   if (options.inverse == InverseKind::iterative) return;
   make_regular(model, targets.dense_h);
@@ -303,14 +309,14 @@ StoredEstimate sample_compression(const BodyGeometry& geometry, const Precompute
     slabs.push_back(all[(2 * i + 1) * all.size() / (2 * samples)]);
     rows += slabs.back().row_end - slabs.back().row_begin;
   }
-  SlabAssembler<float> assembler(model, assembly_precision(options));
+  const auto assembler = make_slab_assembler<float>(model, assembly_precision(options));
   auto start = std::chrono::steady_clock::now();
-  Targets<float> targets = compressed_targets(assembler, slabs, model, iterative);
+  Targets<float> targets = compressed_targets(*assembler, slabs, model, iterative);
   if (slabs.size() < all.size()) {  // trials take little of the whole, known slabs save little
     targets.known.reset();
     start = std::chrono::steady_clock::now();
   }
-  assemble_all(assembler, model, slabs, targets, nullptr);
+  assemble_all(*assembler, model, slabs, targets, nullptr);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   take_families(targets, model);

@@ -26,47 +26,55 @@ struct MatrixSlab {
 /// no more, double otherwise.
 enum class AssemblyPrecision { single, full };
 
-/// Assembles the matrices of a model slab by slab.
+/// Assembles the matrices of a model slab by slab, by one discretisation in space.
 template <class T>
 class SlabAssembler {
  public:
-  /// Sizes the small matrices of the model (body forces), which the slabs fill. The model's
-  /// geometry, discretisation and loads must be set; it must outlive this.
-  SlabAssembler(BodyModel& model, AssemblyPrecision precision);
+  virtual ~SlabAssembler() = default;
 
-  /// Rows of nodes [first, last); uses all worker threads.
-  void assemble(int first, int last, MatrixSlab<T>& slab);
+  /// Rows of nodes [first, last); uses all worker threads. Fills the rows of the model's small
+  /// matrices (body forces), too.
+  virtual void assemble(int first, int last, MatrixSlab<T>& slab) = 0;
 
   /// Frobenius norms of all matrices of a kind together, estimated from some of their rows.
   struct Norms {
     double h = 0, g = 0, initial_h = 0, initial_g = 0;
   };
-  Norms estimate_norms() const;
+  virtual Norms estimate_norms() const = 0;
+
+  virtual double row_sum_residual() const = 0;
 
   /// Matrices of lags >= 1, and parts of lag 0.
   int lag_count() const { return layout_.count() - layout_.initial; }
   int initial_count() const { return layout_.initial; }
-  double row_sum_residual() const { return residual_; }
 
- private:
-  bool is_loaded(int node) const { return !loaded_.empty() && loaded_[node] != 0; }
-  template <class Matrix>
-  void clear_columns(std::vector<Matrix>& matrices) const;
-  template <class S>
-  void assemble_tiles(int first, int last, MatrixSlab<T>& slab);
-  template <class S>
-  void distribute(int first, const std::vector<BlockRow<S>>& rows, int count,
-                  MatrixSlab<T>& slab) const;
-  void distribute_columns(int node, const AlignedVector<double>& from, int padded_lanes,
+ protected:
+  /// Sizes the small matrices of the model.
+  SlabAssembler(BodyModel& model, const LaneLayout& layout);
+
+  bool has_tractions() const { return !loaded_.empty(); }
+  bool is_loaded(int node) const { return has_tractions() && loaded_[node] != 0; }
+  /// Sizes a slab; columns of G without loads are zero.
+  void prepare(int first, int last, MatrixSlab<T>& slab) const;
+  /// Lanes of 3 x n numbers of a node, row after row, to columns from `first` on.
+  void distribute_columns(int node, const double* from, int entries, int padded_lanes,
                           Eigen::Index first, std::vector<Eigen::MatrixXd>& lags,
                           std::vector<Eigen::MatrixXcd>& initial) const;
 
   BodyModel& model_;
-  AssemblyPrecision precision_;
-  std::vector<char> loaded_;  ///< by node: whether G has its columns; empty if there is no G
-  RowAssembler assembler_;
   LaneLayout layout_;
-  double residual_ = 0;
+
+ private:
+  template <class Matrix>
+  void clear_columns(std::vector<Matrix>& matrices) const;
+
+  std::vector<char> loaded_;  ///< by node: whether G has its columns; empty if there is no G
 };
+
+/// By the model's discretisation. Its geometry, discretisation and loads must be set; it must
+/// outlive the assembler.
+template <class T>
+std::unique_ptr<SlabAssembler<T>> make_slab_assembler(BodyModel& model,
+                                                      AssemblyPrecision precision);
 
 }  // namespace bem

@@ -59,10 +59,9 @@ double fastest_turn(const Motion& motion) {
   double fastest = 0;
   for (std::size_t k = 1; k < motion.size(); ++k) {
     const AxisAngle &a = motion[k - 1].rotate, &b = motion[k].rotate;
-    const double same_axis = std::abs(b.angle - a.angle),
-                 other = std::abs(a.angle) + std::abs(b.angle);
-    const bool parallel = a.axis.cross(b.axis).norm() < 1e-9 && a.axis.dot(b.axis) > 0;
-    const double turn = parallel ? same_axis : std::min(other, kPi);
+    const bool one_axis = a.angle == 0 || b.angle == 0 || a.axis.cross(b.axis).norm() < 1e-9;
+    const double sign = a.angle == 0 || b.angle == 0 || a.axis.dot(b.axis) > 0 ? 1 : -1;
+    const double turn = one_axis ? std::abs(b.angle - sign * a.angle) : kPi;
     fastest = std::max(fastest, turn / (motion[k].time - motion[k - 1].time));
   }
   return fastest;

@@ -5,7 +5,8 @@
 using namespace bem;
 
 TEST_CASE("products with polynomials have the weights of the product, closure included") {
-  const double p[3] = {0.7, -0.3, 1.9}, lam = 2.3, tail = 0.4;
+  const std::array<double, 3> p = {0.7, -0.3, 1.9};
+  const double lam = 2.3, tail = 0.4;
   for (const char* name : {"bdf1", "theta:0.4", "bdf2", "radau2", "radau3"})
     for (int last : {1, 3, 9}) {
       const Scheme scheme = Scheme::parse(name);

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "assembly/discretisation.hpp"
+#include "assembly/edge_reconstruction.hpp"
+#include "assembly/galerkin_static.hpp"
+#include "assembly/pair_sums.hpp"
+
+namespace bem {
+
+/// Rows of nodes [first, last) of all Galerkin matrices before they are put together: the static
+/// parts, and lane by lane (LaneLayout) the dynamic ones, of which the matrices are
+///   H = D(0) + (s dt)^2 Z/dt^2,   G = M/2 - K'(0) - (s dt)^2 J/(c2 dt)^2
+/// (kernels/lag_product.hpp), with D(0) and M/2 - K'(0) in the real lanes of lag 0 (a damped
+/// material: those of 1/m in G).
+template <class T>
+struct GalerkinRows {
+  int first = 0, last = 0, nodes = 0, padded_lanes = 0;
+  AlignedVector<T> inertia, adjoint;   ///< Z, J: [row][node][3x3 entry][padded lane]
+  AlignedVector<double> strain;        ///< J of uniform strain: [row][3 axes x 6][padded lane]
+  Eigen::MatrixXd static_h, static_g;  ///< D(0), M/2 - K'(0): 3 (last - first) x 3N
+
+  const T* inertia_block(int row, int node) const {
+    return &inertia[(std::size_t(row) * nodes + node) * 9 * padded_lanes];
+  }
+  const T* adjoint_block(int row, int node) const {
+    return &adjoint[(std::size_t(row) * nodes + node) * 9 * padded_lanes];
+  }
+};
+
+/// Assembles the Galerkin matrices of all lags together in real arithmetic, some rows at a time.
+/// The mesh has its origin at the centre of mass.
+class GalerkinAssembler {
+ public:
+  /// `extent`: largest distance between two vertices (mesh/extent.hpp) [m].
+  GalerkinAssembler(const TriangleMesh& mesh, double extent, const Discretisation& discretisation);
+  ~GalerkinAssembler();
+
+  /// Rows of nodes [first, last); uses all worker threads, and gives the same for any number.
+  void assemble(int first, int last, GalerkinRows<double>& rows) const;
+  void assemble(int first, int last, GalerkinRows<float>& rows) const;
+
+  const RadialTable& table() const { return table_; }
+  const LaneLayout& layout() const { return table_.layout(); }
+  const TriangleMesh& mesh() const { return mesh_; }
+  const Discretisation& discretisation() const { return discretisation_; }
+  const EdgeReconstruction& reconstruction() const { return reconstruction_; }
+
+ private:
+  struct Cluster;
+  struct RowTriangle;
+  template <class T>
+  struct Block;
+  template <class T>
+  struct Workspace;
+
+  template <class T>
+  void assemble_rows(int first, int last, const LaneTable<T>& lanes, GalerkinRows<T>& rows) const;
+  template <class T>
+  void assemble_block(const std::vector<RowTriangle>& triangles, int row_count,
+                      const Cluster& cluster, const LaneTable<T>& lanes, Block<T>& block) const;
+  template <class T>
+  void sum_dynamic(int tx, int ty, const LaneTable<T>& lanes, Workspace<T>& work) const;
+  void add_static(const RowTriangle& rows, int ty, const Cluster& cluster, Eigen::MatrixXd& h,
+                  Eigen::MatrixXd& g) const;
+  void add_mass(const std::vector<RowTriangle>& triangles, Eigen::MatrixXd& g) const;
+
+  const TriangleMesh& mesh_;
+  Discretisation discretisation_;
+  RadialTable table_;
+  LaneTable<float> narrow_table_;
+  PairQuadrature quadrature_;
+  EdgeReconstruction reconstruction_;
+  std::vector<TriangleBasis> bases_;
+  std::vector<Cluster> clusters_;
+};
+
+}  // namespace bem

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "assembly/row_assembler.hpp"
+#include "model/slab_assembly.hpp"
+
+namespace bem {
+
+/// Matrices of collocation: every row is that of its node.
+template <class T>
+class CollocationSlabs : public SlabAssembler<T> {
+ public:
+  CollocationSlabs(BodyModel& model, AssemblyPrecision precision);
+
+  void assemble(int first, int last, MatrixSlab<T>& slab) override;
+  typename SlabAssembler<T>::Norms estimate_norms() const override;
+  double row_sum_residual() const override { return residual_; }
+
+ private:
+  CollocationSlabs(BodyModel& model, AssemblyPrecision precision,
+                   std::unique_ptr<RowAssembler> assembler);
+  template <class S>
+  void assemble_tiles(int first, int last, MatrixSlab<T>& slab);
+  template <class S>
+  void distribute(int first, const std::vector<BlockRow<S>>& rows, int count,
+                  MatrixSlab<T>& slab) const;
+
+  AssemblyPrecision precision_;
+  std::unique_ptr<RowAssembler> assembler_;
+  double residual_ = 0;
+};
+
+}  // namespace bem

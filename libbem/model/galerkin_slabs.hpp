@@ -1,0 +1,43 @@
+#pragma once
+
+#include "assembly/galerkin_assembler.hpp"
+#include "kernels/lag_product.hpp"
+#include "model/slab_assembly.hpp"
+
+namespace bem {
+
+/// Matrices of the Galerkin method: rows are those of test functions that reach over two rings of
+/// triangles, so that many of them are assembled together, as far as memory goes.
+template <class T>
+class GalerkinSlabs : public SlabAssembler<T> {
+ public:
+  GalerkinSlabs(BodyModel& model, AssemblyPrecision precision);
+
+  void assemble(int first, int last, MatrixSlab<T>& slab) override;
+  typename SlabAssembler<T>::Norms estimate_norms() const override;
+  double row_sum_residual() const override { return 0; }  // rigid translation is exact
+
+ private:
+  GalerkinSlabs(BodyModel& model, AssemblyPrecision precision,
+                std::unique_ptr<GalerkinAssembler> assembler);
+  /// All matrices' lanes of an entry from those of its dynamic parts and its static parts.
+  template <class S>
+  void combine(const S* inertia, const S* adjoint, double static_h, double static_g, double* h,
+               double* g) const;
+  template <class S>
+  void assemble_rows(int first, int last, GalerkinRows<S>& rows, MatrixSlab<T>& slab);
+  template <class S>
+  void distribute_row(const GalerkinRows<S>& rows, int row, MatrixSlab<T>& slab);
+  template <class S>
+  void distribute_body_forces(const GalerkinRows<S>& rows, int row);
+
+  AssemblyPrecision precision_;
+  std::unique_ptr<GalerkinAssembler> assembler_;
+  LagProduct inertial_;                      ///< (s dt)^2 X
+  LagProduct damped_;                        ///< m X
+  std::vector<double> static_h_, static_g_;  ///< lanes of 1 and 1/m
+  GalerkinRows<float> single_;
+  GalerkinRows<double> double_;
+};
+
+}  // namespace bem
