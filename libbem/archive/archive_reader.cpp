@@ -184,6 +184,8 @@ void Archive::read_discretisation() {
   const std::string name = file_.string_attribute("/scheme", "name");
   try {
     d.scheme = Scheme::parse(name);
+    if (file_.has_attribute("/scheme", "discretisation"))
+      d.method = parse_spatial_method(file_.string_attribute("/scheme", "discretisation"));
   } catch (const Error& e) {
     refuse(e.what());
   }

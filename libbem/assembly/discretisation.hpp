@@ -11,6 +11,10 @@ enum class SpatialMethod {
   galerkin      ///< hypersingular equation, displacements with reconstructed edges
 };
 
+/// "collocation" or "galerkin"; parsing throws ErrorCode::usage for other names.
+const char* spatial_method_name(SpatialMethod method);
+SpatialMethod parse_spatial_method(const std::string& name);
+
 /// What determines the matrices of a body besides its mesh.
 struct Discretisation {
   Material material;

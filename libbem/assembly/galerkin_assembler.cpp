@@ -1,6 +1,7 @@
 #include "assembly/galerkin_assembler.hpp"
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "base/parallel.hpp"
 #include "kernels/tensors.hpp"
 
@@ -13,6 +14,8 @@ namespace {
 
 constexpr int kShapes = 6;
 constexpr int kClusterTriangles = 32;
+/// |s| dt up to which the quadrature resolves waves: what is faster, schemes get wrong or damp.
+constexpr double kResolvedSymbol = 3;
 
 int slot_of(const std::vector<int>& nodes, int node) {
   return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
@@ -56,8 +59,9 @@ GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
              d.history_length, std::min(1e-10, 1e-3 * d.quadrature_tolerance),
              {d.damping.time / d.dt}, hypersingular_family()),
       narrow_table_(table_.single_precision()),
-      quadrature_(mesh, d.quadrature_tolerance,
-                  largest_symbol(d.scheme) / (d.material.shear_speed() * d.dt)),
+      quadrature_(
+          mesh, d.quadrature_tolerance,
+          std::min(kResolvedSymbol, largest_symbol(d.scheme)) / (d.material.shear_speed() * d.dt)),
       reconstruction_(mesh) {
   require(d.dt > 0 && d.history_length >= 0, "dt and the length of the history are possible");
   const int count = static_cast<int>(mesh.triangles.size());
@@ -275,6 +279,76 @@ void GalerkinAssembler::add_static(const RowTriangle& r, int ty, const Cluster& 
       g.block<3, 3>(row, 3 * slot_of(cluster.nodes, mesh_.triangles[ty][b])) -=
           tractions.middleCols<3>(3 * b);
   }
+}
+
+std::vector<Eigen::MatrixXd> GalerkinAssembler::assemble_loads(
+    const std::vector<PanelLoad>& loads) const {
+  const LaneTable<double>& lanes = table_.lanes();
+  const int count = layout().count();
+  const Eigen::Index cases = loads.at(0).traction.cols();
+  const Material& m = discretisation_.material;
+  const auto corners_of = [](const PanelLoad& load) {
+    Eigen::Matrix<double, 9, Eigen::Dynamic> p(9, load.traction.cols());
+    for (int b = 0; b < 3; ++b)
+      p.middleRows<3>(3 * b) = (load.corner.value_or(b) == b ? 1.0 : 0.0) * load.traction;
+    return p;
+  };
+  /// By shapes of a triangle: static part, and lanes of the dynamic one.
+  struct Part {
+    Eigen::MatrixXd rest;                  // 18 x cases
+    std::vector<Eigen::MatrixXd> dynamic;  // by lane
+  };
+  std::vector<Part> parts(bases_.size());
+  parallel_for(bases_.size(), [&](std::size_t i) {
+    const int tx = static_cast<int>(i);
+    Workspace<double> work;
+    work.sums.resize(kPairSums * static_cast<std::size_t>(lanes.padded_lanes));
+    Part& part = parts[i];
+    part.rest = Eigen::MatrixXd::Zero(18, cases);
+    part.dynamic.assign(count, Eigen::MatrixXd::Zero(18, cases));
+    PairTractions sums;
+    for (const PanelLoad& load : loads) {
+      check_interruption();
+      const auto p = corners_of(load);
+      PairMatrix unused = PairMatrix::Zero();
+      PairTractions adjoint = PairTractions::Zero();
+      add_static_pair(quadrature_, m.shear_modulus, m.kappa(), tx, load.triangle, unused, adjoint);
+      part.rest -= adjoint * p;
+      if (load.triangle == tx) part.rest += 0.5 * mass_matrix(quadrature_.area(tx)) * p;
+      sum_dynamic(tx, load.triangle, lanes, work);
+      for (int lane = 0; lane < count; ++lane) {
+        for (int e = 0; e < 9; ++e)
+          for (int b = 0; b < 3; ++b)
+            for (int a = 0; a < kShapes; ++a)
+              sums(3 * a + e / 3, 3 * b + e % 3) =
+                  work.sums[static_cast<std::size_t>(adjoint_sum(e, b, a)) * lanes.padded_lanes +
+                            lane];
+        part.dynamic[lane].noalias() += sums * p;
+      }
+    }
+  });
+  const auto n = static_cast<Eigen::Index>(3 * mesh_.vertices.size());
+  Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(n, cases);
+  std::vector<Eigen::MatrixXd> out(count, Eigen::MatrixXd::Zero(n, cases));
+  for (std::size_t t = 0; t < bases_.size(); ++t)
+    for (std::size_t k = 0; k < bases_[t].vertices.size(); ++k)
+      for (int a = 0; a < kShapes; ++a) {
+        const double w = bases_[t].weights[k][a];
+        const Eigen::Index row = 3 * bases_[t].vertices[k];
+        if (w == 0) continue;
+        rest.middleRows<3>(row) += w * parts[t].rest.middleRows<3>(3 * a);
+        for (int lane = 0; lane < count; ++lane)
+          out[lane].middleRows<3>(row) += w * parts[t].dynamic[lane].middleRows<3>(3 * a);
+      }
+  const GalerkinCombination combination(discretisation_, layout());
+  std::vector<double> in(count), lane_values(count);
+  for (Eigen::Index r = 0; r < n; ++r)
+    for (Eigen::Index c = 0; c < cases; ++c) {
+      for (int lane = 0; lane < count; ++lane) in[lane] = out[lane](r, c);
+      combination.g(rest(r, c), in.data(), lane_values.data());
+      for (int lane = 0; lane < count; ++lane) out[lane](r, c) = lane_values[lane];
+    }
+  return out;
 }
 
 }  // namespace bem

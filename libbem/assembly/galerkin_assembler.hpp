@@ -2,7 +2,9 @@
 
 #include "assembly/discretisation.hpp"
 #include "assembly/edge_reconstruction.hpp"
+#include "assembly/galerkin_combination.hpp"
 #include "assembly/galerkin_static.hpp"
+#include "assembly/load_assembler.hpp"
 #include "assembly/pair_sums.hpp"
 
 namespace bem {
@@ -38,6 +40,10 @@ class GalerkinAssembler {
   /// Rows of nodes [first, last); uses all worker threads, and gives the same for any number.
   void assemble(int first, int last, GalerkinRows<double>& rows) const;
   void assemble(int first, int last, GalerkinRows<float>& rows) const;
+
+  /// The columns of tractions that are given on triangles: 3N x cases at every lane, put together
+  /// as those of G.
+  std::vector<Eigen::MatrixXd> assemble_loads(const std::vector<PanelLoad>& loads) const;
 
   const RadialTable& table() const { return table_; }
   const LaneLayout& layout() const { return table_.layout(); }

@@ -1,11 +1,9 @@
 #pragma once
 
-#include "assembly/discretisation.hpp"
+#include "assembly/load_assembler.hpp"
 #include "assembly/panel_sums.hpp"
 #include "assembly/vertex_fan.hpp"
 #include "kernels/radial_table.hpp"
-
-#include <optional>
 
 namespace bem {
 
@@ -50,13 +48,6 @@ class RowAssembler {
   double assemble(int vertex, bool fix_translation, Workspace& workspace,
                   BlockRow<float>& row) const;
 
-  /// A traction on a triangle for several load cases: 3 x cases [Pa], constant or times the linear
-  /// shape function of one corner (0, 1, 2).
-  struct PanelLoad {
-    int triangle;
-    Eigen::Matrix3Xd traction;
-    std::optional<int> corner = std::nullopt;
-  };
   /// Row of the load columns sum_T int u* dGamma p_T at every lane: out[lane] is 3 x cases. The
   /// tractions are exact, with jumps from triangle to triangle.
   std::vector<Eigen::Matrix3Xd> assemble_loads(int vertex, const std::vector<PanelLoad>& loads,

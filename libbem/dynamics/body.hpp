@@ -15,7 +15,7 @@ namespace bem {
 struct SharedModel {
   std::shared_ptr<const BodyModel> model;
   std::shared_ptr<const ElasticSystem> system;
-  std::shared_ptr<const RowAssembler> assembler;    ///< for prescribed loads and those of corners
+  std::shared_ptr<const LoadAssembler> assembler;   ///< for prescribed loads and those of corners
   std::shared_ptr<const NodalTractions> tractions;  ///< of the nodes that constraints may act on
   std::shared_ptr<const InputColumns> centrifugal;  ///< if rotation deforms some body
   std::shared_ptr<const LeastSquaresCorrection> correction;  ///< if some body is corrected so

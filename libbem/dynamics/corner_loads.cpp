@@ -12,7 +12,7 @@ bool has_corner_loads(const std::vector<JointNode>& nodes) {
 }
 
 std::shared_ptr<const CornerLoads> make_corner_loads(const ElasticSystem& system,
-                                                     const RowAssembler& assembler,
+                                                     const LoadAssembler& assembler,
                                                      const std::vector<JointNode>& nodes) {
   if (!has_corner_loads(nodes)) return nullptr;
   auto out = std::make_shared<CornerLoads>();
@@ -21,13 +21,13 @@ std::shared_ptr<const CornerLoads> make_corner_loads(const ElasticSystem& system
     if (!n.triangles.empty()) out->areas.push_back(0);
   }
   const TriangleMesh& mesh = assembler.mesh();
-  std::vector<RowAssembler::PanelLoad> loads;
+  std::vector<PanelLoad> loads;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (int t : nodes[i].triangles) {
       const Triangle& triangle = mesh.triangles[t];
       const auto corner = std::find(triangle.begin(), triangle.end(), nodes[i].node);
-      RowAssembler::PanelLoad load{t, Eigen::Matrix3Xd::Zero(3, out->inputs()),
-                                   static_cast<int>(corner - triangle.begin())};
+      PanelLoad load{t, Eigen::Matrix3Xd::Zero(3, out->inputs()),
+                     static_cast<int>(corner - triangle.begin())};
       load.traction.middleCols<3>(out->input_of(i)) = Mat3::Identity();
       loads.push_back(std::move(load));
       out->areas[out->shape_of_joint[i]] += triangle_area(mesh, triangle) / 3;

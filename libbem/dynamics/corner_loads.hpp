@@ -24,7 +24,7 @@ struct CornerLoads {
 
 /// Null if no node has triangles of its own.
 std::shared_ptr<const CornerLoads> make_corner_loads(const ElasticSystem& system,
-                                                     const RowAssembler& assembler,
+                                                     const LoadAssembler& assembler,
                                                      const std::vector<JointNode>& nodes);
 
 /// Whether bodies with these joint nodes need make_corner_loads().

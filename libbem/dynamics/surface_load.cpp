@@ -36,7 +36,7 @@ SurfaceLoad::SurfaceLoad(const TractionSpec& spec, const BodyGeometry& g,
   for (auto& [node, traction] : nodal) nodal_.emplace_back(node, traction / areas[node]);
 }
 
-void SurfaceLoad::make_columns(const ElasticSystem& system, const RowAssembler& assembler) {
+void SurfaceLoad::make_columns(const ElasticSystem& system, const LoadAssembler& assembler) {
   columns_ = load_columns(system, assembler, panels_);
 }
 

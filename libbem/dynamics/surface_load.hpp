@@ -14,7 +14,7 @@ class SurfaceLoad {
 
   /// Integrates the load over its triangles for every node and lag, O(N x triangles); not needed
   /// for rigid bodies.
-  void make_columns(const ElasticSystem& system, const RowAssembler& assembler);
+  void make_columns(const ElasticSystem& system, const LoadAssembler& assembler);
 
   const InputColumns& columns() const { return columns_; }
   Eigen::Index inputs() const { return force_.cols(); }
@@ -34,7 +34,7 @@ class SurfaceLoad {
  private:
   TractionSpec spec_;
   bool follows_;
-  std::vector<RowAssembler::PanelLoad> panels_;
+  std::vector<PanelLoad> panels_;
   InputColumns columns_;
   Eigen::Matrix3Xd force_, torque_;
   std::vector<std::pair<int, Eigen::Matrix3Xd>> nodal_;  ///< node, 3 x inputs

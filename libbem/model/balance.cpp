@@ -136,9 +136,38 @@ Columns orthonormal_rigid(const Columns& rigid) {
   return qr.householderQ() * Columns::Identity(rigid.cols(), rigid.rows());
 }
 
+/// The Galerkin matrices balance forces and moments exactly: rigid motions are the left null vectors
+/// of H(0), R^T [D Q](0) = -diag(m, inertia), and R^T G(0) is that of the tractions themselves.
+void set_exact_balance(BodyModel& model) {
+  const TriangleMesh& mesh = model.geometry.nodes;
+  const auto n = static_cast<Eigen::Index>(model.nodes());
+  Eigen::Matrix<double, 6, 6> inverse = Eigen::Matrix<double, 6, 6>::Zero();
+  inverse.diagonal().head<3>().setConstant(1 / model.geometry.mass.mass);
+  inverse.bottomRightCorner<3, 3>() = model.geometry.mass.inertia.inverse();
+  const auto wrench = [](const Vec3& x) {  // of a unit force at x
+    Eigen::Matrix<double, 6, 3> w;
+    w << Mat3::Identity(), cross_matrix(x);
+    return w;
+  };
+  model.balance.resize(6, 3 * n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    model.balance.middleCols<3>(3 * i) = inverse * wrench(mesh.vertices[i]);
+  if (model.loads == Loads::none) return;
+  model.traction_balance = Eigen::MatrixXd::Zero(6, 3 * n);
+  for (const Triangle& t : mesh.triangles) {
+    const double area = triangle_area(mesh, t);
+    const Vec3 sum = mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]];
+    for (int v : t) {
+      Eigen::Matrix<double, 6, 3> w = wrench((sum + mesh.vertices[v]) / 4);  // int psi x / int psi
+      model.traction_balance.middleCols<3>(3 * v) += inverse * (area / 3 * w);
+    }
+  }
+}
+
 }  // namespace
 
 void compute_balance(BodyModel& model) {
+  if (model.discretisation.method == SpatialMethod::galerkin) return set_exact_balance(model);
   constexpr double kAcceptable = 1e-4;
   constexpr int kMostIterations = 300, kPatience = 60;  // bending of thin bodies comes late
   const bool full = model.codec == Codec::none && model.precision == Precision::float64;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "assembly/row_assembler.hpp"
+#include "assembly/load_assembler.hpp"
 #include "compress/codec.hpp"
 #include "compress/matrix_family.hpp"
 #include "model/geometry.hpp"

@@ -7,20 +7,6 @@
 #include <cmath>
 
 namespace bem {
-namespace {
-
-/// Lanes of a function of d = s dt.
-std::vector<double> lanes_of(const Scheme& scheme, const LaneLayout& layout,
-                             const std::function<Complex(Complex)>& f) {
-  std::vector<double> lanes(layout.count());
-  ContourQuadrature(scheme, layout.last_lag)
-      .weights(
-          1, [&f](Complex d, Complex* value) { *value = f(d); }, lanes.data(), true);
-  return lanes;
-}
-
-}  // namespace
-
 template <class T>
 GalerkinSlabs<T>::GalerkinSlabs(BodyModel& model, AssemblyPrecision precision)
     : GalerkinSlabs(model, precision,
@@ -33,15 +19,7 @@ GalerkinSlabs<T>::GalerkinSlabs(BodyModel& model, AssemblyPrecision precision,
     : SlabAssembler<T>(model, assembler->layout()),
       precision_(precision),
       assembler_(std::move(assembler)),
-      inertial_(model.discretisation.scheme, assembler_->layout(), {0, 0, 1}),
-      damped_(model.discretisation.scheme, assembler_->layout(),
-              {1, model.discretisation.damping.time / model.discretisation.dt, 0}) {
-  const Discretisation& d = model.discretisation;
-  const double time = d.damping.time / d.dt;
-  static_h_ = lanes_of(d.scheme, assembler_->layout(), [](Complex) { return 1.0; });
-  static_g_ = lanes_of(d.scheme, assembler_->layout(),
-                       [time](Complex s) { return 1.0 / (1.0 + time * s); });
-}
+      combination_(model.discretisation, assembler_->layout()) {}
 
 template <class T>
 void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
@@ -73,20 +51,6 @@ void GalerkinSlabs<T>::assemble_rows(int first, int last, GalerkinRows<S>& rows,
 
 template <class T>
 template <class S>
-void GalerkinSlabs<T>::combine(const S* inertia, const S* adjoint, double static_h, double static_g,
-                               double* h, double* g) const {
-  const Discretisation& d = this->model_.discretisation;
-  const double per_time = 1 / (d.dt * d.dt), speed = d.material.shear_speed();
-  inertial_.apply(inertia, h);
-  inertial_.apply(adjoint, g);
-  for (int lane = 0; lane < this->layout_.count(); ++lane) {
-    h[lane] = static_h_[lane] * static_h + per_time * h[lane];
-    g[lane] = static_g_[lane] * static_g - per_time / (speed * speed) * g[lane];
-  }
-}
-
-template <class T>
-template <class S>
 void GalerkinSlabs<T>::distribute_row(const GalerkinRows<S>& rows, int row, MatrixSlab<T>& slab) {
   const int n = static_cast<int>(this->model_.nodes()), count = this->layout_.count();
   const int initial = this->layout_.initial;
@@ -95,16 +59,18 @@ void GalerkinSlabs<T>::distribute_row(const GalerkinRows<S>& rows, int row, Matr
     for (int e = 0; e < 9; ++e) {
       const Eigen::Index from = 3 * row + e / 3, to = 3 * (rows.first + row - slab.first) + e / 3,
                          column = 3 * j + e % 3;
-      combine(rows.inertia_block(row, j) + e * rows.padded_lanes,
-              rows.adjoint_block(row, j) + e * rows.padded_lanes, rows.static_h(from, column),
-              rows.static_g(from, column), h.data(), g.data());
+      combination_.h(rows.static_h(from, column),
+                     rows.inertia_block(row, j) + e * rows.padded_lanes, h.data());
       const auto write = [&](const std::vector<double>& lanes, auto& initial_matrices, auto& lags) {
         for (int lane = 0; lane < initial; ++lane) initial_matrices[lane](to, column) = lanes[lane];
         for (int lane = initial; lane < count; ++lane)
           lags[lane - initial](to, column) = static_cast<T>(lanes[lane]);
       };
       write(h, slab.initial_h, slab.h);
-      if (this->is_loaded(j)) write(g, slab.initial_g, slab.g);
+      if (!this->is_loaded(j)) continue;
+      combination_.g(rows.static_g(from, column),
+                     rows.adjoint_block(row, j) + e * rows.padded_lanes, g.data());
+      write(g, slab.initial_g, slab.g);
     }
 }
 
@@ -136,7 +102,7 @@ void GalerkinSlabs<T>::distribute_body_forces(const GalerkinRows<S>& rows, int r
   const Discretisation& d = this->model_.discretisation;
   const double scale = 1 / (d.material.shear_speed() * d.material.shear_speed());
   for (int entry = 0; entry < 18; ++entry) {
-    damped_.apply(&rows.strain[(std::size_t(row) * 18 + entry) * stride], lanes.data());
+    combination_.damp(&rows.strain[(std::size_t(row) * 18 + entry) * stride], lanes.data());
     for (int lane = 0; lane < count; ++lane) strain[entry * stride + lane] += scale * lanes[lane];
   }
   const int node = rows.first + row;
@@ -159,10 +125,10 @@ typename SlabAssembler<T>::Norms GalerkinSlabs<T>::estimate_norms() const {
     assembler_->assemble(node, node + 1, rows);
     for (int j = 0; j < n; ++j)
       for (int e = 0; e < 9; ++e) {
-        combine(rows.inertia_block(0, j) + e * rows.padded_lanes,
-                rows.adjoint_block(0, j) + e * rows.padded_lanes,
-                rows.static_h(e / 3, 3 * j + e % 3), rows.static_g(e / 3, 3 * j + e % 3), h.data(),
-                g.data());
+        combination_.h(rows.static_h(e / 3, 3 * j + e % 3),
+                       rows.inertia_block(0, j) + e * rows.padded_lanes, h.data());
+        combination_.g(rows.static_g(e / 3, 3 * j + e % 3),
+                       rows.adjoint_block(0, j) + e * rows.padded_lanes, g.data());
         for (int lane = 0; lane < count; ++lane) {
           const bool initial = lane < this->layout_.initial;
           (initial ? sum.initial_h : sum.h) += h[lane] * h[lane];

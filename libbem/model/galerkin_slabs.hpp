@@ -1,7 +1,6 @@
 #pragma once
 
 #include "assembly/galerkin_assembler.hpp"
-#include "kernels/lag_product.hpp"
 #include "model/slab_assembly.hpp"
 
 namespace bem {
@@ -20,10 +19,6 @@ class GalerkinSlabs : public SlabAssembler<T> {
  private:
   GalerkinSlabs(BodyModel& model, AssemblyPrecision precision,
                 std::unique_ptr<GalerkinAssembler> assembler);
-  /// All matrices' lanes of an entry from those of its dynamic parts and its static parts.
-  template <class S>
-  void combine(const S* inertia, const S* adjoint, double static_h, double static_g, double* h,
-               double* g) const;
   template <class S>
   void assemble_rows(int first, int last, GalerkinRows<S>& rows, MatrixSlab<T>& slab);
   template <class S>
@@ -33,9 +28,7 @@ class GalerkinSlabs : public SlabAssembler<T> {
 
   AssemblyPrecision precision_;
   std::unique_ptr<GalerkinAssembler> assembler_;
-  LagProduct inertial_;                      ///< (s dt)^2 X
-  LagProduct damped_;                        ///< m X
-  std::vector<double> static_h_, static_g_;  ///< lanes of 1 and 1/m
+  GalerkinCombination combination_;
   GalerkinRows<float> single_;
   GalerkinRows<double> double_;
 };

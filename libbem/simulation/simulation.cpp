@@ -181,7 +181,7 @@ void Simulation::load(ModelSource& source) {
     if (std::any_of(users.begin(), users.end(), [&](int b) {
           return !scene_.bodies[b].tractions.empty() || has_corner_loads(plan_.nodes[b]);
         }))
-      s.assembler = std::make_shared<RowAssembler>(
+      s.assembler = make_load_assembler(
           s.model->geometry.nodes, s.model->geometry.extent, s.model->discretisation);
   }
   bodies_.reserve(scene_.bodies.size());

@@ -1,5 +1,6 @@
 #include "options.hpp"
 
+#include "assembly/discretisation.hpp"
 #include "base/error.hpp"
 #include "common/cli.hpp"
 #include "common/command_line.hpp"
@@ -41,6 +42,14 @@ void add_matrix_options(CLI::App& app, Typed& t) {
          "--scheme", o.scheme,
          "radau2, radau3, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2; --model static: bdf1)")
       ->type_name("NAME");
+  app.add_option(
+         "--discretisation", o.method,
+         "in space: collocation, the paper's, or galerkin, which neither stiffens bodies nor "
+         "lets motions grow (" +
+             o.method + ")")
+      ->type_name("NAME");
+  app.add_flag("--measure-growth", o.measure_growth,
+               "with galerkin, too, measure how much motions of the free body grow per step");
   app.add_option("--window", t.window,
                  "factor 0 < q <= 1 on the weights per lag, 1 for none; auto: the weakest that "
                  "makes the measured growth <= 1 (auto)")
@@ -201,6 +210,7 @@ void check_inputs(const Options& o) {
   if (o.dt) positive("--dt", *o.dt);
   positive("--mesh-scale", o.mesh_scale);
   const Scheme scheme = Scheme::parse(o.scheme);
+  parse_spatial_method(o.method);
   if (o.model == ModelKind::quasistatic) check_static(o, scheme);
   if (o.history && o.history_tolerance) refuse("use either --history or --history-tol");
   if (o.history) number_in("--history", *o.history, 1, 100000);
@@ -266,6 +276,7 @@ std::string Options::canonical_text() const {
   if (model == ModelKind::rigid) return "--model rigid";
   std::string text = "--scheme " + Scheme::parse(scheme).name();
   const bool dynamic = model == ModelKind::dynamic;
+  if (method != "collocation") text += " --discretisation " + method;
   if (dynamic) text += " --window " + (window == 0 ? "auto" : to_text(window));
   if (history) text += " --history " + std::to_string(*history);
   if (history_tolerance) text += " --history-tol " + to_text(*history_tolerance);

@@ -201,6 +201,8 @@ Plan make_plan(const Options& o) {
   d.scheme = Scheme::parse(o.scheme);
   d.quadrature_tolerance = o.quadrature_tolerance;
   d.damping = o.damping;
+  d.method = parse_spatial_method(o.method);
+  plan.options.measure_growth = d.method == SpatialMethod::collocation || o.measure_growth;
   plan.options.window = o.window;
   if (o.model == ModelKind::dynamic) d.dt = time_step(o, d.material);
   plan.geometry = read_body(o, d.material.density, plan.warnings);

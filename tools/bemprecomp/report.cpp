@@ -50,6 +50,7 @@ Json scheme_json(const Discretisation& d, double window) {
   json.update({{"history_length", d.history_length},
                {"window", window},
                {"quadrature_tolerance", d.quadrature_tolerance}});
+  json["discretisation"] = spatial_method_name(d.method);
   if (d.damping.time > 0) json["damping_time"] = d.damping.time;
   return json;
 }
@@ -192,6 +193,7 @@ void print_matrices(Table& table, const Archive& archive) {
   const ModelReport& r = archive.report();
   print_scheme(table, d, r.lam);
   const bool dynamic = archive.kind() == ModelKind::dynamic;
+  table.line("discretisation", spatial_method_name(d.method));
   if (dynamic) table.line("window", archive.window());
   if (d.damping.time > 0)
     table.line("damping", "Kelvin-Voigt, retardation time ", d.damping.time, " s");
@@ -204,7 +206,7 @@ void print_matrices(Table& table, const Archive& archive) {
   table.line("quadrature", "tolerance ", d.quadrature_tolerance, ", row sums repaired by ",
              r.row_sum_residual, ", rotation residual ", r.rotation_residual);
   if (archive.codec() != Codec::none) print_codec_errors(table, archive);
-  if (dynamic)
+  if (dynamic && r.growth > 0)
     table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
                " without window)");
   if (!archive.is_iterative()) table.line("condition", r.condition, " (lag 0)");

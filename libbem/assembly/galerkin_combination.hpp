@@ -1,0 +1,39 @@
+#pragma once
+
+#include "assembly/discretisation.hpp"
+#include "kernels/lag_product.hpp"
+
+namespace bem {
+
+/// Puts the matrices of the Galerkin method together from their static and dynamic parts, lane by
+/// lane (LaneLayout): H = D(0) + (s dt)^2 Z/dt^2 and G = (M/2 - K'(0))/m - (s dt)^2 J/(c2 dt)^2,
+/// where m = 1 + s time of a damped material is already in the lanes of Z and J.
+class GalerkinCombination {
+ public:
+  GalerkinCombination(const Discretisation& discretisation, const LaneLayout& layout);
+
+  template <class S>
+  void h(double static_part, const S* inertia, double* out) const {
+    inertial_.apply(inertia, out);
+    for (std::size_t lane = 0; lane < one_.size(); ++lane)
+      out[lane] = one_[lane] * static_part + h_scale_ * out[lane];
+  }
+  template <class S>
+  void g(double static_part, const S* adjoint, double* out) const {
+    inertial_.apply(adjoint, out);
+    for (std::size_t lane = 0; lane < one_.size(); ++lane)
+      out[lane] = softened_[lane] * static_part + g_scale_ * out[lane];
+  }
+  /// m times what is in lanes.
+  template <class S>
+  void damp(const S* in, double* out) const {
+    damped_.apply(in, out);
+  }
+
+ private:
+  LagProduct inertial_, damped_;        ///< (s dt)^2, m
+  std::vector<double> one_, softened_;  ///< lanes of 1 and 1/m
+  double h_scale_, g_scale_;
+};
+
+}  // namespace bem
