@@ -210,8 +210,7 @@ std::string hdf5_structure_fault(const std::string& path, Hdf5Storage storage) {
       storage == Hdf5Storage::growing ? H5F_ACC_RDONLY | H5F_ACC_SWMR_READ : H5F_ACC_RDONLY;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access.get(), true, true);
-  if (storage == Hdf5Storage::growing)
-    H5Pset_metadata_read_attempts(access.get(), kReadAttempts);
+  if (storage == Hdf5Storage::growing) H5Pset_metadata_read_attempts(access.get(), kReadAttempts);
   const Hdf5Handle file(H5Fopen(path.c_str(), mode, access.get()), H5Fclose);
   if (unknown || !file) return "it cannot be opened as an HDF5 file (" + hdf5_cause() + ")";
   const Hdf5Handle root(H5Oopen(file.get(), "/", H5P_DEFAULT), H5Oclose);

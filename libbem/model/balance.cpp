@@ -136,8 +136,9 @@ Columns orthonormal_rigid(const Columns& rigid) {
   return qr.householderQ() * Columns::Identity(rigid.cols(), rigid.rows());
 }
 
-/// The Galerkin matrices balance forces and moments exactly: rigid motions are the left null vectors
-/// of H(0), R^T [D Q](0) = -diag(m, inertia), and R^T G(0) is that of the tractions themselves.
+/// The Galerkin matrices balance forces and moments exactly: rigid motions are the left null
+/// vectors of H(0), R^T [D Q](0) = -diag(m, inertia), and R^T G(0) is that of the tractions
+/// themselves.
 void set_exact_balance(BodyModel& model) {
   const TriangleMesh& mesh = model.geometry.nodes;
   const auto n = static_cast<Eigen::Index>(model.nodes());

@@ -181,8 +181,8 @@ void Simulation::load(ModelSource& source) {
     if (std::any_of(users.begin(), users.end(), [&](int b) {
           return !scene_.bodies[b].tractions.empty() || has_corner_loads(plan_.nodes[b]);
         }))
-      s.assembler = make_load_assembler(
-          s.model->geometry.nodes, s.model->geometry.extent, s.model->discretisation);
+      s.assembler = make_load_assembler(s.model->geometry.nodes, s.model->geometry.extent,
+                                        s.model->discretisation);
   }
   bodies_.reserve(scene_.bodies.size());
   for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {

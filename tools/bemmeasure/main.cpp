@@ -14,10 +14,11 @@
 namespace {
 
 int run(int argc, char** argv) {
-  CLI::App app("Penetration, rest places, speeds and energy of a trajectory, as JSON on stdout. "
-               "Penetration is that of vertices: bodies whose surfaces cross without a vertex in "
-               "each other have none.",
-               "bemmeasure");
+  CLI::App app(
+      "Penetration, rest places, speeds and energy of a trajectory, as JSON on stdout. "
+      "Penetration is that of vertices: bodies whose surfaces cross without a vertex in "
+      "each other have none.",
+      "bemmeasure");
   bem::set_up_help(app, "  bemmeasure SCENE.json TRAJECTORY.h5 [options]");
   std::string scene_file, trajectory_file;
   bem::MeasureOptions options;
