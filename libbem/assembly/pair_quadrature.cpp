@@ -16,7 +16,7 @@ constexpr int kMoreForObtuse = 3;  // Gauss points per direction
 /// Cosines of the angle of the normals at a shared edge from which on it counts as sharp: for the
 /// dynamic parts, whose kernels are not symmetric about it, and for the static ones.
 constexpr double kFolded = 0.8, kSharp = -0.2;
-constexpr int kMoreForEdges = 3, kMostForWaves = 4;
+constexpr int kMoreForEdges = 4, kMostForWaves = 4;
 constexpr int kStaticRadial = 3, kDynamicRadial = 4;  // exact for static kernels, for Z(0)
 
 /// Gauss points per direction of touching pairs for an error relative to the largest entry.
@@ -24,7 +24,7 @@ int static_order(double tolerance) {
   return std::clamp(static_cast<int>(std::ceil(2 - std::log10(tolerance))), 4, 14);
 }
 int dynamic_order(double tolerance) {
-  return std::clamp(static_cast<int>(std::ceil(1 - 0.5 * std::log10(tolerance))), 3, 12);
+  return std::clamp(static_cast<int>(std::ceil(1 - 0.6 * std::log10(tolerance))), 3, 12);
 }
 
 double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
