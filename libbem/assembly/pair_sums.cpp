@@ -5,6 +5,9 @@
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// clang-format off: after foreach_target.h
+#include "assembly/lane_sums-inl.hpp"
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace bem {
@@ -27,17 +30,6 @@ enum : int {
 };
 static_assert(kOfDilation + 3 == PairScratch<double>::kCoefficients);
 
-template <class D>
-HWY_INLINE hn::Vec<D> LoadPairPoints(D d, const double* HWY_RESTRICT from) {
-  if constexpr (std::is_same_v<hn::TFromD<D>, double>) {
-    return hn::LoadU(d, from);
-  } else {
-    alignas(64) hn::TFromD<D> narrow[64 / sizeof(float)];
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i) narrow[i] = static_cast<float>(from[i]);
-    return hn::Load(d, narrow);
-  }
-}
-
 /// Tensor coefficients and products of shape functions of all points, lanes over points; also finds
 /// the table intervals.
 template <class T>
@@ -49,15 +41,13 @@ void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const
   const Vec3 &mv = scales.m, &nv = scales.n;
   const V m[3] = {set(mv[0]), set(mv[1]), set(mv[2])}, n[3] = {set(nv[0]), set(nv[1]), set(nv[2])};
   const V mn = set(mv.dot(nv));
-  const V per_distance = set(scales.lam_per_distance), grading = set(table.kGrading);
-  const V scale = set(table.scale), first = set(-table.scale * table.graded(0));
-  const V last = set(table.intervals - 1.0), one = set(1.0);
+  const V one = set(1.0);
   const V inertia_scale = set(scales.density / (4 * kPi)), adjoint_scale = set(-1 / (4 * kPi));
   const V normal_part = set(1 - 2 * scales.kappa), other_part = set(2 * scales.kappa);
   alignas(64) T intervals[kPairCapacity];
   for (int q = 0; q < batch.padded_size(); q += static_cast<int>(hn::Lanes(d))) {
-    const V x = LoadPairPoints(d, batch.r[0] + q), y = LoadPairPoints(d, batch.r[1] + q),
-            z = LoadPairPoints(d, batch.r[2] + q);
+    const V x = LoadPoints(d, batch.r[0] + q), y = LoadPoints(d, batch.r[1] + q),
+            z = LoadPoints(d, batch.r[2] + q);
     const V r = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
     const V inverse = hn::Div(one, r);
     const V h[3] = {hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse)};
@@ -66,12 +56,7 @@ void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const
     };
     const V hm = dot(m), hn_ = dot(n);
 
-    const V root = hn::Sqrt(hn::MulAdd(r, per_distance, grading));
-    const V position = hn::MulAdd(hn::Mul(root, hn::Sqrt(root)), scale, first);
-    const V interval = hn::Max(hn::Min(hn::Floor(position), last), hn::Zero(d));  // rounding at 0
-    const V offset = hn::Sub(position, interval);
-    hn::Store(hn::Sub(hn::Add(offset, offset), one), d, scratch.local + q);
-    hn::Store(interval, d, intervals + q);
+    StorePlaces(d, table, r, scales.lam_per_distance, intervals + q, scratch.local + q);
 
     const auto store = [&](int row, V value) { hn::Store(value, d, scratch.coefficient[row] + q); };
     const V s = hn::Mul(inertia_scale, inverse);
@@ -105,33 +90,15 @@ void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const
       store(kOfDilation + i, hn::MulAdd(along_m, m[i], hn::Mul(along_n, n[i])));
 
     for (int a = 0; a < 6; ++a) {
-      const V x_shape = LoadPairPoints(d, batch.x_shape[a] + q);
+      const V x_shape = LoadPoints(d, batch.x_shape[a] + q);
       hn::Store(x_shape, d, scratch.x_weight[a] + q);
       for (int b = 0; b < 6; ++b)
-        hn::Store(hn::Mul(x_shape, LoadPairPoints(d, batch.y_shape[b] + q)), d,
+        hn::Store(hn::Mul(x_shape, LoadPoints(d, batch.y_shape[b] + q)), d,
                   scratch.weight[6 * b + a] + q);
     }
   }
   for (int q = 0; q < batch.padded_size(); ++q)
     scratch.interval[q] = table.interval(static_cast<int>(intervals[q]));
-}
-
-/// sums[i] += weight[i][q] * values[q] over the points, n rows held in registers.
-template <int n, class D, class T = hn::TFromD<D>>
-HWY_INLINE void AccumulatePairRows(D d, const T (*weight)[PairScratch<T>::kStride], int size,
-                                   const T* HWY_RESTRICT values, T* HWY_RESTRICT sums,
-                                   std::size_t stride) {
-  using V = hn::Vec<D>;
-  V sum[n];
-#pragma GCC unroll 16
-  for (int i = 0; i < n; ++i) sum[i] = hn::Load(d, sums + i * stride);
-  for (int q = 0; q < size; ++q) {
-    const V value = hn::Load(d, values + q * hn::Lanes(d));
-#pragma GCC unroll 16
-    for (int i = 0; i < n; ++i) sum[i] = hn::MulAdd(hn::Set(d, weight[i][q]), value, sum[i]);
-  }
-#pragma GCC unroll 16
-  for (int i = 0; i < n; ++i) hn::Store(sum[i], d, sums + i * stride);
 }
 
 /// The kernels at all points for a vector of lanes: values[tensor entry][point].
@@ -184,9 +151,8 @@ void AccumulatePair(const LaneTable<T>& table, const PairScales& scales, const P
   for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
     EvaluateTensors(d, table, lane, batch.size, scratch);
     const auto rows = [&](auto count, const auto* weight, int tensor, int sum) {
-      AccumulatePairRows<decltype(count)::value>(d, weight, batch.size,
-                                                 scratch.values + tensor * step,
-                                                 sums + sum * stride + lane, stride);
+      AccumulateRows<decltype(count)::value>(d, weight, batch.size, scratch.values + tensor * step,
+                                             sums + sum * stride + lane, stride);
     };
     using Twelve = std::integral_constant<int, 12>;
     using Nine = std::integral_constant<int, 9>;

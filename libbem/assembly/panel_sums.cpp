@@ -5,6 +5,9 @@
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// clang-format off: after foreach_target.h
+#include "assembly/lane_sums-inl.hpp"
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace bem {
@@ -26,17 +29,6 @@ enum : int {
 };
 static_assert(kCoefM0 + 1 == PanelScratch<double>::kCoefficients);
 
-template <class D>
-HWY_INLINE hn::Vec<D> LoadPoints(D d, const double* HWY_RESTRICT from) {
-  if constexpr (std::is_same_v<hn::TFromD<D>, double>) {
-    return hn::LoadU(d, from);
-  } else {
-    alignas(64) hn::TFromD<D> narrow[64 / sizeof(float)];
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i) narrow[i] = static_cast<float>(from[i]);
-    return hn::Load(d, narrow);
-  }
-}
-
 /// Tensor coefficients of all points, lanes over points; also finds the table intervals.
 template <class T>
 void Coefficients(const LaneTable<T>& table, const KernelScales& scales, const PointBatch& batch,
@@ -45,9 +37,6 @@ void Coefficients(const LaneTable<T>& table, const KernelScales& scales, const P
   using V = hn::Vec<decltype(d)>;
   const auto set = [&d](double value) { return hn::Set(d, static_cast<T>(value)); };
   const V nx = set(normal[0]), ny = set(normal[1]), nz = set(normal[2]);
-  const V per_distance = set(scales.lam_per_distance), grading = set(table.kGrading);
-  const V scale = set(table.scale), first = set(-table.scale * table.graded(0));
-  const V last = set(table.intervals - 1.0);
   const V one = set(1.0);
   alignas(64) T intervals[kCapacity];
   for (int q = 0; q < batch.padded_size(); q += static_cast<int>(hn::Lanes(d))) {
@@ -60,12 +49,7 @@ void Coefficients(const LaneTable<T>& table, const KernelScales& scales, const P
                      hn::Mul(h[1], h[1]), hn::Mul(h[1], h[2]), hn::Mul(h[2], h[2])};
     const V hn_ = hn::MulAdd(h[0], nx, hn::MulAdd(h[1], ny, hn::Mul(h[2], nz)));
 
-    const V root = hn::Sqrt(hn::MulAdd(r, per_distance, grading));
-    const V position = hn::MulAdd(hn::Mul(root, hn::Sqrt(root)), scale, first);
-    const V interval = hn::Max(hn::Min(hn::Floor(position), last), hn::Zero(d));  // rounding at 0
-    const V offset = hn::Sub(position, interval);
-    hn::Store(hn::Sub(hn::Add(offset, offset), one), d, scratch.local + q);
-    hn::Store(interval, d, intervals + q);
+    StorePlaces(d, table, r, scales.lam_per_distance, intervals + q, scratch.local + q);
 
     const auto store = [&](int row, V value) { hn::Store(value, d, scratch.coefficient[row] + q); };
     V weight = hn::Zero(d);
@@ -93,24 +77,6 @@ void Coefficients(const LaneTable<T>& table, const KernelScales& scales, const P
   }
   for (int q = 0; q < batch.padded_size(); ++q)
     scratch.interval[q] = table.interval(static_cast<int>(intervals[q]));
-}
-
-/// sums[i] += coefficient[i][q] * values[q] over the points, n rows held in registers.
-template <int n, class D, class T = hn::TFromD<D>>
-HWY_INLINE void AccumulateRows(D d, const T (*coefficient)[PanelScratch<T>::kStride], int size,
-                               const T* HWY_RESTRICT values, T* HWY_RESTRICT sums,
-                               std::size_t stride) {
-  using V = hn::Vec<D>;
-  V sum[n];
-#pragma GCC unroll 16
-  for (int i = 0; i < n; ++i) sum[i] = hn::Load(d, sums + i * stride);
-  for (int q = 0; q < size; ++q) {
-    const V value = hn::Load(d, values + q * hn::Lanes(d));
-#pragma GCC unroll 16
-    for (int i = 0; i < n; ++i) sum[i] = hn::MulAdd(hn::Set(d, coefficient[i][q]), value, sum[i]);
-  }
-#pragma GCC unroll 16
-  for (int i = 0; i < n; ++i) hn::Store(sum[i], d, sums + i * stride);
 }
 
 template <class D, class T = hn::TFromD<D>>
