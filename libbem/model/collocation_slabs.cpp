@@ -15,16 +15,9 @@ constexpr int kTileNodes = 8;
 
 template <class T>
 CollocationSlabs<T>::CollocationSlabs(BodyModel& model, AssemblyPrecision precision)
-    : CollocationSlabs(model, precision,
-                       std::make_unique<RowAssembler>(model.geometry.nodes, model.geometry.extent,
-                                                      model.discretisation)) {}
-
-template <class T>
-CollocationSlabs<T>::CollocationSlabs(BodyModel& model, AssemblyPrecision precision,
-                                      std::unique_ptr<RowAssembler> assembler)
-    : SlabAssembler<T>(model, assembler->layout()),
+    : SlabAssembler<T>(model),
       precision_(precision),
-      assembler_(std::move(assembler)) {}
+      assembler_(model.geometry.nodes, model.geometry.extent, model.discretisation) {}
 
 template <class T>
 void CollocationSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
@@ -46,7 +39,7 @@ void CollocationSlabs<T>::assemble_tiles(int first, int last, MatrixSlab<T>& sla
     const int begin = first + static_cast<int>(tile) * kTileNodes;
     const int count = std::min(kTileNodes, last - begin);
     for (int v = 0; v < count; ++v) {
-      residuals[begin - first + v] = assembler_->assemble(begin + v, true, work, rows[v]);
+      residuals[begin - first + v] = assembler_.assemble(begin + v, true, work, rows[v]);
       const auto distribute = [&](const AlignedVector<double>& from, Eigen::Index first_column,
                                   auto& lags, auto& initial) {
         this->distribute_columns(begin + v, from.data(),
@@ -103,7 +96,7 @@ typename SlabAssembler<T>::Norms CollocationSlabs<T>::estimate_norms() const {
     thread_local RowAssembler::Workspace work;
     thread_local BlockRow<float> row;
     const auto node = static_cast<int>(static_cast<long>(i) * n / samples);
-    assembler_->assemble(node, true, work, row);
+    assembler_.assemble(node, true, work, row);
     for (int j = 0; j < n; ++j)
       for (int lane = 0; lane < this->layout_.count(); ++lane) {
         const bool initial = lane < this->layout_.initial;

@@ -16,8 +16,6 @@ class CollocationSlabs : public SlabAssembler<T> {
   double row_sum_residual() const override { return residual_; }
 
  private:
-  CollocationSlabs(BodyModel& model, AssemblyPrecision precision,
-                   std::unique_ptr<RowAssembler> assembler);
   template <class S>
   void assemble_tiles(int first, int last, MatrixSlab<T>& slab);
   template <class S>
@@ -25,7 +23,7 @@ class CollocationSlabs : public SlabAssembler<T> {
                   MatrixSlab<T>& slab) const;
 
   AssemblyPrecision precision_;
-  std::unique_ptr<RowAssembler> assembler_;
+  RowAssembler assembler_;
   double residual_ = 0;
 };
 

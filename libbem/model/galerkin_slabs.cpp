@@ -9,17 +9,10 @@
 namespace bem {
 template <class T>
 GalerkinSlabs<T>::GalerkinSlabs(BodyModel& model, AssemblyPrecision precision)
-    : GalerkinSlabs(model, precision,
-                    std::make_unique<GalerkinAssembler>(model.geometry.nodes, model.geometry.extent,
-                                                        model.discretisation)) {}
-
-template <class T>
-GalerkinSlabs<T>::GalerkinSlabs(BodyModel& model, AssemblyPrecision precision,
-                                std::unique_ptr<GalerkinAssembler> assembler)
-    : SlabAssembler<T>(model, assembler->layout()),
+    : SlabAssembler<T>(model),
       precision_(precision),
-      assembler_(std::move(assembler)),
-      combination_(model.discretisation, assembler_->layout()) {}
+      assembler_(model.geometry.nodes, model.geometry.extent, model.discretisation),
+      combination_(model.discretisation, assembler_.layout()) {}
 
 template <class T>
 void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
@@ -38,9 +31,9 @@ void GalerkinSlabs<T>::assemble_rows(int first, int last, GalerkinRows<S>& rows,
     // as many rows as have room, so that few triangles are gone through again for the next ones
     constexpr double kMostBytes = 400e6;
     const int n = static_cast<int>(this->model_.nodes());
-    const double per_row = 18.0 * n * assembler_->layout().count() * sizeof(S);
+    const double per_row = 18.0 * n * assembler_.layout().count() * sizeof(S);
     const int some = std::max(last - first, static_cast<int>(kMostBytes / per_row));
-    assembler_->assemble(first, std::min(n, first + some), rows);
+    assembler_.assemble(first, std::min(n, first + some), rows);
   }
   parallel_for(last - first, [&](std::size_t row) {
     const int node = first + static_cast<int>(row);
@@ -78,7 +71,7 @@ void GalerkinSlabs<T>::distribute_row(const GalerkinRows<S>& rows, int row, Matr
 template <class T>
 template <class S>
 void GalerkinSlabs<T>::distribute_body_forces(const GalerkinRows<S>& rows, int row) {
-  const TriangleMesh& mesh = assembler_->mesh();
+  const TriangleMesh& mesh = assembler_.mesh();
   const int stride = rows.padded_lanes, count = this->layout_.count();
   std::vector<double> rigid(18 * stride, 0.0), strain(18 * stride, 0.0), lanes(stride);
   for (int j = 0; j < rows.nodes; ++j) {
@@ -122,7 +115,7 @@ typename SlabAssembler<T>::Norms GalerkinSlabs<T>::estimate_norms() const {
   for (int i = 0; i < samples; ++i) {
     const int node = static_cast<int>((2L * i + 1) * n / (2 * samples));
     GalerkinRows<float> rows;
-    assembler_->assemble(node, node + 1, rows);
+    assembler_.assemble(node, node + 1, rows);
     for (int j = 0; j < n; ++j)
       for (int e = 0; e < 9; ++e) {
         combination_.h(rows.static_h(e / 3, 3 * j + e % 3),

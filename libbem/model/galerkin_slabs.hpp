@@ -17,8 +17,6 @@ class GalerkinSlabs : public SlabAssembler<T> {
   double row_sum_residual() const override { return 0; }  // rigid translation is exact
 
  private:
-  GalerkinSlabs(BodyModel& model, AssemblyPrecision precision,
-                std::unique_ptr<GalerkinAssembler> assembler);
   template <class S>
   void assemble_rows(int first, int last, GalerkinRows<S>& rows, MatrixSlab<T>& slab);
   template <class S>
@@ -27,7 +25,7 @@ class GalerkinSlabs : public SlabAssembler<T> {
   void distribute_body_forces(const GalerkinRows<S>& rows, int row);
 
   AssemblyPrecision precision_;
-  std::unique_ptr<GalerkinAssembler> assembler_;
+  GalerkinAssembler assembler_;
   GalerkinCombination combination_;
   GalerkinRows<float> single_;
   GalerkinRows<double> double_;

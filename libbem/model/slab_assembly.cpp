@@ -16,9 +16,9 @@ void resize(std::vector<Matrix>& matrices, int count, Eigen::Index rows, Eigen::
 }  // namespace
 
 template <class T>
-SlabAssembler<T>::SlabAssembler(BodyModel& model, const LaneLayout& layout)
+SlabAssembler<T>::SlabAssembler(BodyModel& model)
     : model_(model),
-      layout_(layout),
+      layout_(model.discretisation.scheme, model.discretisation.history_length),
       loaded_(model.loads == Loads::none ? 0 : model.nodes(), model.loads == Loads::all) {
   if (model.loads == Loads::some)
     for (int node : model.loaded_nodes) loaded_[node] = 1;

@@ -50,7 +50,7 @@ class SlabAssembler {
 
  protected:
   /// Sizes the small matrices of the model.
-  SlabAssembler(BodyModel& model, const LaneLayout& layout);
+  explicit SlabAssembler(BodyModel& model);
 
   bool has_tractions() const { return !loaded_.empty(); }
   bool is_loaded(int node) const { return has_tractions() && loaded_[node] != 0; }
