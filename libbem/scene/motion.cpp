@@ -55,15 +55,18 @@ RigidMotion motion_at(const Motion& motion, double t) {
           linear(a.translate, b.translate, s)};
 }
 
+double turn_rate(const Keyframe& from, const Keyframe& to) {
+  const AxisAngle &a = from.rotate, &b = to.rotate;
+  const bool from_rest = a.angle == 0 || b.angle == 0;
+  const bool one_axis = from_rest || a.axis.cross(b.axis).norm() < 1e-9;
+  const double sign = from_rest || a.axis.dot(b.axis) > 0 ? 1 : -1;
+  return (one_axis ? std::abs(b.angle - sign * a.angle) : kPi) / (to.time - from.time);
+}
+
 double fastest_turn(const Motion& motion) {
   double fastest = 0;
-  for (std::size_t k = 1; k < motion.size(); ++k) {
-    const AxisAngle &a = motion[k - 1].rotate, &b = motion[k].rotate;
-    const bool one_axis = a.angle == 0 || b.angle == 0 || a.axis.cross(b.axis).norm() < 1e-9;
-    const double sign = a.angle == 0 || b.angle == 0 || a.axis.dot(b.axis) > 0 ? 1 : -1;
-    const double turn = one_axis ? std::abs(b.angle - sign * a.angle) : kPi;
-    fastest = std::max(fastest, turn / (motion[k].time - motion[k - 1].time));
-  }
+  for (std::size_t k = 1; k < motion.size(); ++k)
+    fastest = std::max(fastest, turn_rate(motion[k - 1], motion[k]));
   return fastest;
 }
 

@@ -24,7 +24,11 @@ struct RigidMotion {
 /// to 1.
 RigidMotion motion_at(const Motion& motion, double t);
 
-/// How fast a motion turns between its keyframes [rad/s]: never faster than this.
+/// How fast a motion turns from one keyframe to the next [rad/s]: at most this, as described for
+/// motion_at.
+double turn_rate(const Keyframe& from, const Keyframe& to);
+
+/// The largest turn_rate() of a motion [rad/s].
 double fastest_turn(const Motion& motion);
 
 /// Where points of an obstacle's scaled mesh are at time `t` [s], in world coordinates [m].

@@ -29,14 +29,10 @@ std::vector<Group> groups_of(const BodySpec& body, double duration) {
 
 /// How far a group may turn between two times without a keyframe in between [rad], at most.
 double turn_between(const Group& group, double begin, double end) {
-  double turn = 0;
-  for (std::size_t k = 1; k < group.motion.size(); ++k) {
-    const Keyframe &last = group.motion[k - 1], &next = group.motion[k];
-    if (next.time <= begin || last.time >= end) continue;
-    turn = (std::abs(last.rotate.angle) + std::abs(next.rotate.angle)) * (end - begin) /
-           (next.time - last.time);
-  }
-  return turn;
+  for (std::size_t k = 1; k < group.motion.size(); ++k)
+    if (group.motion[k].time > begin && group.motion[k - 1].time < end)
+      return turn_rate(group.motion[k - 1], group.motion[k]) * (end - begin);
+  return 0;
 }
 
 /// Calls f(t) at times of the motion of both groups that are near enough that neither can turn by
