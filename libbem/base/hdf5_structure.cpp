@@ -1,5 +1,7 @@
 #include "base/hdf5_structure.hpp"
 
+#include "base/file_io.hpp"
+#include "base/hdf5_driver.hpp"
 #include "base/hdf5_handle.hpp"
 
 #include <algorithm>
@@ -200,27 +202,37 @@ class Walk {
 
 constexpr unsigned kReadAttempts = 5;  // of what is damaged, instead of a hundred with pauses
 
+std::string fault_of_file(const std::string& path, unsigned mode, const Hdf5Handle& access,
+                          Walk walk) {
+  const Hdf5Handle file(H5Fopen(path.c_str(), mode, access.get()), H5Fclose);
+  if (!file) return "it cannot be opened as an HDF5 file (" + hdf5_cause() + ")";
+  const Hdf5Handle root(H5Oopen(file.get(), "/", H5P_DEFAULT), H5Oclose);
+  if (!root) return "/ cannot be opened";
+  try {
+    walk.object(root.get(), "/", 0);
+  } catch (const Fault& fault) {
+    return fault.text;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string hdf5_structure_fault(const std::string& path, Hdf5Storage storage) {
   silence_hdf5();
   std::error_code unknown;
   const std::uint64_t bytes = std::filesystem::file_size(path, unknown);
+  check_io(unknown.value(), path, "cannot be read");
   const unsigned mode =
       storage == Hdf5Storage::growing ? H5F_ACC_RDONLY | H5F_ACC_SWMR_READ : H5F_ACC_RDONLY;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access.get(), true, true);
   if (storage == Hdf5Storage::growing) H5Pset_metadata_read_attempts(access.get(), kReadAttempts);
-  const Hdf5Handle file(H5Fopen(path.c_str(), mode, access.get()), H5Fclose);
-  if (unknown || !file) return "it cannot be opened as an HDF5 file (" + hdf5_cause() + ")";
-  const Hdf5Handle root(H5Oopen(file.get(), "/", H5P_DEFAULT), H5Oclose);
-  try {
-    if (!root) refuse("/", "cannot be opened");
-    Walk(bytes, storage).object(root.get(), "/", 0);
-  } catch (const Fault& fault) {
-    return fault.text;
-  }
-  return "";
+  Hdf5Io io;
+  use_driver(access.get(), io);
+  const std::string fault = fault_of_file(path, mode, access, Walk(bytes, storage));
+  check_io(io.error(), path, "cannot be read");
+  return fault;
 }
 
 }  // namespace bem

@@ -72,6 +72,8 @@ bool write_all(int descriptor, const std::string& bytes) {
     set_limit(RLIMIT_CORE, 0);
     set_limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_seconds));
     status = write_all(pipe, work()) ? 0 : kCrashed;
+  } catch (const Error& error) {
+    if (write_all(pipe, error.what())) status = static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
     status = kNoMemory;
   } catch (...) {
@@ -152,6 +154,13 @@ bool is_without_memory(int status) {
   return WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory;
 }
 
+/// Passes on the Error that the work threw.
+void check_error(int status, const std::string& message) {
+  if (!WIFEXITED(status) || message.empty()) return;
+  const int code = WEXITSTATUS(status);
+  if (code != 0 && code != kCrashed) throw Error(static_cast<ErrorCode>(code), message);
+}
+
 std::string failure_text(int status) {
   constexpr const char* kTooMuch = "took too much time or memory";
   if (is_without_memory(status)) return kTooMuch;
@@ -175,6 +184,7 @@ IsolatedResult run_isolated(const std::function<std::string()>& work,
     in_time = Clock::now() < end;
   }
   const int status = in_time ? child.wait() : child.stop();
+  check_error(status, result.output);
   if (is_without_memory(status) && child.peak() < shared + limits.memory / 2)
     throw Error(ErrorCode::resources, "not enough memory");
   result.finished = WIFEXITED(status) && WEXITSTATUS(status) == 0;

@@ -23,8 +23,9 @@ struct IsolatedResult {
 /// Runs `work` in a child process and returns the bytes that it returned, so that third-party code
 /// which aborts, crashes or hangs on damaged input cannot take this process along. The child prints
 /// nothing, leaves no core file, is stopped at the limits, and ends with this process, however that
-/// ends. `work` must not throw (an allocation beyond the limit throws std::bad_alloc there), must
-/// not start threads, and must not need locks that other threads of this process hold.
+/// ends. An Error that `work` throws, with a text that is not empty, is thrown here; it may
+/// throw std::bad_alloc (at an allocation beyond the limit) and nothing else. It must not start
+/// threads, and must not need locks that other threads of this process hold.
 ///
 /// While it waits it calls check_interruption() (base/interruption.hpp) twenty times a second: what
 /// that throws ends the child and is passed on. Throws ErrorCode::resources if no process can be

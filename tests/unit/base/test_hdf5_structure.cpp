@@ -1,4 +1,5 @@
 #include "base/hdf5.hpp"
+#include "base/hdf5_handle.hpp"
 #include "base/hdf5_structure.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -84,8 +85,8 @@ TEST_CASE("datasets must be stored as this project does") {
   CHECK_THAT(fault_after([](hid_t f) { create(f, 10, [](hid_t) {}); }),
              Contains("/new promises more numbers"));  // never written
   CHECK_THAT(fault_after([](hid_t f) {
-               H5Tcommit2(f, "/type", H5Tcopy(H5T_NATIVE_INT), H5P_DEFAULT, H5P_DEFAULT,
-                          H5P_DEFAULT);
+               const Hdf5Handle type(H5Tcopy(H5T_NATIVE_INT), H5Tclose);
+               H5Tcommit2(f, "/type", type.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
              }),
              Contains("/type is neither a group nor a dataset"));
 }

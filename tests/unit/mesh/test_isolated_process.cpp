@@ -31,6 +31,17 @@ TEST_CASE("a crash of the child is reported and survived") {
   CHECK_FALSE(run_isolated(kill, {}).finished);
 }
 
+TEST_CASE("an error that the work throws is thrown in the parent") {
+  const auto refuse = []() -> std::string { throw Error(ErrorCode::archive, "not like this"); };
+  try {
+    run_isolated(refuse, {});
+    FAIL("the error is lost");
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::archive);
+    CHECK(error.what() == std::string("not like this"));
+  }
+}
+
 TEST_CASE("a child that never ends is stopped, whether it computes or sleeps") {
   const auto spin = []() -> std::string {
     for (volatile int i = 0;; i = i + 1) {
