@@ -59,6 +59,19 @@ inline std::string initial_path(const std::string& matrix, std::size_t component
   return "/matrices/" + matrix + "/component_" + std::to_string(component);
 }
 
+/// Unit of a matrix, by its name.
+inline const char* matrix_unit(SpatialMethod method, const std::string& name) {
+  if (name == "traction_response") return "m/Pa";
+  if (method == SpatialMethod::collocation)
+    return name == "g" || name == "initial_g" ? "m/Pa" : "1";
+  if (name == "h") return "kg";
+  if (name == "inverse") return "m/N";
+  return name == "initial_h" ? "N/m" : "m^2";
+}
+
+/// Group of the stiffness D(0) of the inertial form.
+inline constexpr char kStiffness[] = "/matrices/stiffness";
+
 /// The datasets of an uncompressed family of lags, in the order of their lag indices.
 inline std::vector<std::string> lag_paths(const std::string& matrix, int history_length,
                                           int components) {

@@ -190,6 +190,7 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
     if (tractions) g.push_back(load(initial_path(initial_name(iterative_, true), i)));
   }
   model.h = load(lags_path("h"));
+  if (is_inertial()) model.stiffness = load(kStiffness);
   if (tractions) model.g = load(lags_path("g"));
   model.balance = load_balance(kBalancePath);
   model.traction_balance = load_balance(kTractionBalancePath);

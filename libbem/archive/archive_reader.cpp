@@ -234,6 +234,8 @@ void Archive::read_report() {
   e.g = file_.double_attribute("/report", "codec_error_g");
   e.inverse = file_.double_attribute("/report", "codec_error_inverse");
   e.traction_response = file_.double_attribute("/report", "codec_error_traction_response");
+  if (file_.has_attribute("/report", "codec_error_stiffness"))
+    e.stiffness = file_.double_attribute("/report", "codec_error_stiffness");
   if (!file_.has_attribute("/report", "codec_error_initial_h")) return;
   e.initial_h = file_.double_attribute("/report", "codec_error_initial_h");
   e.initial_g = file_.double_attribute("/report", "codec_error_initial_g");
@@ -262,6 +264,7 @@ std::vector<Archive::FamilyPlace> Archive::family_places() const {
       places.push_back(
           {initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1), of_tractions});
   }
+  if (is_inertial()) places.push_back({kStiffness, {std::string(kStiffness) + "/real"}, false});
   for (bool of_tractions : {false, true}) {
     if (discretisation_.history_length == 0 || (of_tractions && !tractions)) break;
     const char* matrix = of_tractions ? "g" : "h";

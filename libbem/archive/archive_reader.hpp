@@ -62,6 +62,10 @@ class Archive {
   BodyForce load_body_force(const char* name) const;
   /// Whether it has the columns of the centrifugal force; archives of older programs do not.
   bool has_centrifugal() const;
+  /// Whether lags of h multiply accelerations, see BodyModel::stiffness.
+  bool is_inertial() const {
+    return discretisation_.method == SpatialMethod::galerkin && discretisation_.history_length > 0;
+  }
 
   /// One of the balance matrices at kBalancePath or kTractionBalancePath, 6 x unknowns; without
   /// columns if it is that of tractions and no loads may act.

@@ -97,6 +97,7 @@ inline constexpr StoredNumber kSchemeNumbers[] = {
     {"/report", "codec_error_traction_response", 0, kAny, true},
     {"/report", "codec_error_initial_h", 0, kAny, true},
     {"/report", "codec_error_initial_g", 0, kAny, true},
+    {"/report", "codec_error_stiffness", 0, kAny, true},
 };
 /// Of models that have a time step.
 inline constexpr StoredNumber kDynamicNumbers[] = {{"/scheme", "dt", kPositive, kAny}};

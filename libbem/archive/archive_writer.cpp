@@ -36,7 +36,7 @@ std::vector<const MatrixFamily*> large_families(const BodyModel& model) {
   for (const auto* group :
        {&model.inverse, &model.traction_response, &model.initial_h, &model.initial_g})
     for (const auto& family : *group) families.push_back(family.get());
-  for (const auto* family : {model.h.get(), model.g.get()})
+  for (const auto* family : {model.h.get(), model.g.get(), model.stiffness.get()})
     if (family) families.push_back(family);
   return families;
 }
@@ -147,6 +147,8 @@ void write_report(Hdf5File& file, const ModelReport& r) {
   file.set_attribute("/report", "codec_error_traction_response", r.codec_errors.traction_response);
   file.set_attribute("/report", "codec_error_initial_h", r.codec_errors.initial_h);
   file.set_attribute("/report", "codec_error_initial_g", r.codec_errors.initial_g);
+  if (r.codec_errors.stiffness > 0)
+    file.set_attribute("/report", "codec_error_stiffness", r.codec_errors.stiffness);
 }
 
 void write_provenance(Hdf5File& file, const Provenance& p) {
@@ -231,6 +233,7 @@ void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& prog
   if (model.has_centrifugal())
     write_body_force(file, model, kCentrifugal, model.centrifugal, model.initial_centrifugal);
   const bool iterative = model.is_iterative(), tractions = model.loads != Loads::none;
+  const SpatialMethod method = model.discretisation.method;
   write_small(file, kBalancePath, model.balance);
   if (tractions) write_small(file, kTractionBalancePath, model.traction_balance);
   const auto write_initial = [&](bool of_tractions,
@@ -239,17 +242,20 @@ void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& prog
     for (std::size_t i = 0; i < families.size(); ++i)
       writer.write(initial_path(name, i), initial_paths(name, i, families[i]->count()),
                    *families[i]);
-    file.set_attribute(lags_path(name), "unit", of_tractions ? "m/Pa" : "1");
+    file.set_attribute(lags_path(name), "unit", matrix_unit(method, name));
   };
   write_initial(false, iterative ? model.initial_h : model.inverse);
   if (tractions) write_initial(true, iterative ? model.initial_g : model.traction_response);
-  const auto write_lags = [&](const char* name, const MatrixFamily& family, const char* unit) {
+  const auto write_lags = [&](const char* name, const MatrixFamily& family) {
     writer.write(lags_path(name),
                  lag_paths(name, model.discretisation.history_length, model.components()), family);
-    file.set_attribute(lags_path(name), "unit", unit);
+    file.set_attribute(lags_path(name), "unit", matrix_unit(method, name));
   };
-  if (model.h) write_lags("h", *model.h, "1");
-  if (model.g) write_lags("g", *model.g, "m/Pa");
+  if (model.h) write_lags("h", *model.h);
+  if (model.g) write_lags("g", *model.g);
+  if (!model.stiffness) return;
+  writer.write(kStiffness, {std::string(kStiffness) + "/real"}, *model.stiffness);
+  file.set_attribute(kStiffness, "unit", "N/m");
 }
 
 void check_complete(const BodyModel& model) {

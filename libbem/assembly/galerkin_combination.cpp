@@ -18,6 +18,7 @@ std::vector<double> lanes_of(const Scheme& scheme, const LaneLayout& layout,
 GalerkinCombination::GalerkinCombination(const Discretisation& d, const LaneLayout& layout)
     : inertial_(d.scheme, layout, {0, 0, 1}),
       damped_(d.scheme, layout, {1, d.damping.time / d.dt, 0}),
+      initial_(layout.initial),
       one_(lanes_of(d.scheme, layout, [](Complex) { return 1.0; })),
       softened_(
           lanes_of(d.scheme, layout,

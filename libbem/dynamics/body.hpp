@@ -51,7 +51,7 @@ class Body {
 
   /// For deformable bodies: the past, and what of it has to be multiplied by the displacement
   /// matrices of the model.
-  const LagHistory& displacement_history() const { return elastic_->displacement_history(); }
+  const MotionHistory& motion_history() const { return elastic_->motion_history(); }
   Eigen::MatrixXd history_sums() const { return elastic_->history_sums(loads_); }
   SolutionMemory& solution_memory() { return elastic_->solution_memory(); }
 

@@ -34,7 +34,7 @@ ElasticPart::ElasticPart(const ElasticSystem& system, const NodalTractions* trac
       centrifugal_(std::move(centrifugal)),
       correction_(std::move(correction)),
       offset_(system.scheme(), time_step_of_offset(system.model())) {
-  displacement_history_ = system.make_displacement_history();
+  motion_history_ = system.make_motion_history();
   acceleration_history_ = system.make_history(6);
   if (corners_) corner_history_ = system.make_history(corners_->inputs());
   if (centrifugal_) centrifugal_history_ = system.make_history(6);
@@ -345,7 +345,7 @@ std::optional<ElasticPart::Corrected> ElasticPart::end_step() {
     end_.displacements = corrected->displacement;
     end_.accelerations = corrected->acceleration;
   }
-  displacement_history_.push(end_.displacements);
+  motion_history_.push(end_.displacements);
   acceleration_history_.push(end_.accelerations);
   if (tractions_) traction_history_.push(end_.load);
   if (corners_) corner_history_.push(end_.corner);

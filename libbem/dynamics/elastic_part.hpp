@@ -39,7 +39,7 @@ class ElasticPart {
               std::shared_ptr<const InputColumns> centrifugal,
               std::shared_ptr<const LeastSquaresCorrection> correction);
 
-  const LagHistory& displacement_history() const { return displacement_history_; }
+  const MotionHistory& motion_history() const { return motion_history_; }
   /// Of the displacements without new loads.
   SolutionMemory& solution_memory() { return solution_memory_; }
   /// What the history of everything but the displacements contributes: 3N x components.
@@ -91,7 +91,7 @@ class ElasticPart {
 
   /// Between two steps; compliances come again by themselves.
   void visit_state(StateArchive& state) {
-    state(offset_, displacement_history_, acceleration_history_, corner_history_,
+    state(offset_, motion_history_, acceleration_history_, corner_history_,
           centrifugal_history_);
     traction_history_.visit_state(state, tractions_);
     state(solution_memory_);
@@ -133,7 +133,8 @@ class ElasticPart {
   std::shared_ptr<const LeastSquaresCorrection> correction_;  ///< null: projection
   FrameOffset offset_;
   double leak_ = 0;
-  LagHistory displacement_history_, acceleration_history_, corner_history_, centrifugal_history_;
+  MotionHistory motion_history_;
+  LagHistory acceleration_history_, corner_history_, centrifugal_history_;
   Eigen::MatrixXd centrifugal_stages_;
   NodalHistory traction_history_;
   SolutionMemory solution_memory_;

@@ -4,27 +4,10 @@
 #include <cmath>
 
 namespace bem {
-namespace {
-
-/// The series of p(Delta(zeta)) in powers of zeta.
-std::vector<StageMatrix> polynomial_series(const Scheme& scheme, const std::array<double, 3>& p) {
-  const std::vector<StageMatrix>& delta = scheme.delta_coefficients();
-  const int s = scheme.stages();
-  std::vector<StageMatrix> series(2 * delta.size() - 1, StageMatrix::Zero(s, s));
-  series[0] += p[0] * StageMatrix::Identity(s, s);
-  for (std::size_t i = 0; i < delta.size(); ++i) {
-    series[i] += p[1] * delta[i];
-    for (std::size_t j = 0; j < delta.size(); ++j) series[i + j] += p[2] * delta[i] * delta[j];
-  }
-  return series;
-}
-
-}  // namespace
-
 LagProduct::LagProduct(const Scheme& scheme, const LaneLayout& layout,
                        const std::array<double, 3>& p)
     : count_(layout.count()) {
-  const std::vector<StageMatrix> series = polynomial_series(scheme, p);
+  const std::vector<StageMatrix> series = delta_polynomial(scheme, p);
   /// What the weight `x` of lag k, which is in lane `from`, contributes to the later ones.
   const auto add_later = [&](int k, const StageMatrix& x, int from) {
     for (int j = 0; j < static_cast<int>(series.size()); ++j) {

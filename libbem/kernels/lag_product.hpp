@@ -24,8 +24,16 @@ class LagProduct {
   /// out[lane] = the product's; in and out are layout.count() numbers, and different ones.
   template <class T>
   void apply(const T* in, double* out) const {
-    for (int lane = 0; lane < count_; ++lane) out[lane] = 0;
-    for (const Term& t : terms_) out[t.to] += t.factor * in[t.from];
+    apply(count_, in, out);
+  }
+  /// The same for the first lanes alone.
+  template <class T>
+  void apply(int lanes, const T* in, double* out) const {
+    for (int lane = 0; lane < lanes; ++lane) out[lane] = 0;
+    for (const Term& t : terms_) {
+      if (t.to >= lanes) break;
+      out[t.to] += t.factor * in[t.from];
+    }
   }
 
  private:

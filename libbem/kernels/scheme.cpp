@@ -174,6 +174,18 @@ ComponentVectorC Scheme::extract(const StageMatrixC& w) const {
   return x;
 }
 
+std::vector<StageMatrix> delta_polynomial(const Scheme& scheme, const std::array<double, 3>& p) {
+  const std::vector<StageMatrix>& delta = scheme.delta_coefficients();
+  const int s = scheme.stages();
+  std::vector<StageMatrix> series(2 * delta.size() - 1, StageMatrix::Zero(s, s));
+  series[0] += p[0] * StageMatrix::Identity(s, s);
+  for (std::size_t i = 0; i < delta.size(); ++i) {
+    series[i] += p[1] * delta[i];
+    for (std::size_t j = 0; j < delta.size(); ++j) series[i + j] += p[2] * delta[i] * delta[j];
+  }
+  return series;
+}
+
 int default_history_length(const Scheme& scheme, double lam) {
   const double margin = scheme.theta() > 0.3 ? 3 : (lam > 15 ? 2 : 1);
   return static_cast<int>(std::floor(lam + 2) + std::ceil(margin * std::sqrt(lam)));

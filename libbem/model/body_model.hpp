@@ -20,7 +20,8 @@ struct ModelReport {
   double growth_frequency = 0;   ///< of the motion that grows so [1/s]; not in archives
   /// What the codec has changed, relative Frobenius norms over all matrices of a kind.
   struct CodecErrors {
-    double h = 0, g = 0, inverse = 0, traction_response = 0, initial_h = 0, initial_g = 0;
+    double h = 0, g = 0, stiffness = 0, inverse = 0, traction_response = 0, initial_h = 0,
+           initial_g = 0;
   } codec_errors;
 };
 
@@ -54,9 +55,13 @@ struct BodyModel {
   Codec codec = Codec::none;
   Precision precision = Precision::float32;  ///< of uncompressed matrices
 
-  /// 3N x 3N, lags >= 1; no g: Loads::none; neither: no history.
+  /// 3N x 3N, lags >= 1; no g: Loads::none; neither: no history. h multiplies displacements or, in
+  /// the inertial form, accelerations [kg]: then
+  ///   D(0) u_n + sum_k Z_k a_{n-k} = sum_k G_k p_{n-k} + ..., with a as in
+  ///   model/motion_history.hpp.
   std::unique_ptr<MatrixFamily> h, g;
-  std::vector<Eigen::MatrixXd> body_force;           ///< [D_k Q_k], 3N x 6, lags >= 1
+  std::unique_ptr<MatrixFamily> stiffness;  ///< D(0) [N/m], one matrix; of the inertial form
+  std::vector<Eigen::MatrixXd> body_force;  ///< [D_k Q_k], 3N x 6, lags >= 1
   std::vector<Eigen::MatrixXcd> initial_body_force;  ///< [D_0 Q_0] by initial component, 3N x 6
   /// The same for body forces rho B y with a symmetric matrix B, by its entries xx xy xz yy yz zz
   /// (M7): the centrifugal force. Empty in archives that older programs have made.

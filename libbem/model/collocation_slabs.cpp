@@ -88,7 +88,7 @@ void CollocationSlabs<T>::distribute(int first, const std::vector<BlockRow<S>>& 
 }
 
 template <class T>
-typename SlabAssembler<T>::Norms CollocationSlabs<T>::estimate_norms() const {
+typename SlabAssembler<T>::Norms CollocationSlabs<T>::estimate_norms() {
   const int n = static_cast<int>(this->model_.nodes()),
             samples = std::min(n, std::clamp(n / 3, 8, 48));
   std::vector<typename SlabAssembler<T>::Norms> parts(samples);
@@ -115,9 +115,7 @@ typename SlabAssembler<T>::Norms CollocationSlabs<T>::estimate_norms() const {
     sum.initial_h += p.initial_h;
     sum.initial_g += p.initial_g;
   }
-  const double scale = static_cast<double>(n) / samples;
-  return {std::sqrt(scale * sum.h), std::sqrt(scale * sum.g), std::sqrt(scale * sum.initial_h),
-          std::sqrt(scale * sum.initial_g)};
+  return sum.root(static_cast<double>(n) / samples);
 }
 
 template class CollocationSlabs<float>;

@@ -12,8 +12,9 @@ class CollocationSlabs : public SlabAssembler<T> {
   CollocationSlabs(BodyModel& model, AssemblyPrecision precision);
 
   void assemble(int first, int last, MatrixSlab<T>& slab) override;
-  typename SlabAssembler<T>::Norms estimate_norms() const override;
+  typename SlabAssembler<T>::Norms estimate_norms() override;
   double row_sum_residual() const override { return residual_; }
+  bool is_inertial() const override { return false; }
 
  private:
   template <class S>

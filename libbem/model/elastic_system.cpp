@@ -4,41 +4,6 @@
 
 namespace bem {
 
-Eigen::MatrixXd lag_inputs(const Scheme& scheme) {
-  const auto& components = scheme.lag_components();
-  Eigen::MatrixXd right(scheme.stages(), static_cast<Eigen::Index>(components.size()));
-  for (Eigen::Index m = 0; m < right.cols(); ++m) right.col(m) = components[m].right;
-  return right;
-}
-
-LagHistory::LagHistory(const Scheme& scheme, Eigen::Index inputs, int history_length, double window,
-                       const MatrixFamily* family)
-    : right_(lag_inputs(scheme)),
-      window_(window),
-      family_(family),
-      ring_(history_length, Eigen::MatrixXd::Zero(inputs, right_.cols())),
-      coefficients_(
-          history_length,
-          Eigen::MatrixXf::Zero(family ? static_cast<Eigen::Index>(family->coefficients()) : 0,
-                                right_.cols())),
-      zero_(history_length, 1) {}
-
-void LagHistory::push(const Eigen::MatrixXd& stages) {
-  if (ring_.empty()) return;
-  newest_ = (newest_ + ring_.size() - 1) % ring_.size();
-  ring_[newest_].noalias() = stages * right_;
-  zero_[newest_] = stages.isZero(0);
-  if (family_) family_->analyse_columns(ring_[newest_], coefficients_[newest_]);
-}
-
-void LagHistory::visit_state(StateArchive& state) {
-  state(ring_, zero_, newest_);
-  state.check(newest_ < ring_.size() || newest_ == 0);
-  if (!state.restores() || !family_) return;
-  for (std::size_t i = 0; i < ring_.size(); ++i)
-    if (!zero_[i]) family_->analyse_columns(ring_[i], coefficients_[i]);
-}
-
 ElasticSystem::ElasticSystem(const BodyModel& model, double window)
     : model_(model), window_(window), scheme_(model.discretisation.scheme.windowed(window)) {
   const int initial = static_cast<int>(scheme().initial_components().size());
@@ -49,33 +14,59 @@ ElasticSystem::ElasticSystem(const BodyModel& model, double window)
   }
   projection_ = RigidProjection(rigid_part(model.geometry.nodes), std::move(response));
   body_force_.lags = model.body_force;
+  if (model.stiffness) rigid_modes_ = orthonormal_rigid_modes(model.geometry.nodes);
 }
 
 LagHistory ElasticSystem::make_history(Eigen::Index inputs) const {
   return LagHistory(scheme(), inputs, model_.discretisation.history_length, window_);
 }
 
-LagHistory ElasticSystem::make_displacement_history() const {
-  return LagHistory(scheme(), static_cast<Eigen::Index>(3 * model_.nodes()),
-                    model_.discretisation.history_length, window_, model_.h.get());
-}
-
-void ElasticSystem::subtract_displacement_history(
-    const std::vector<const LagHistory*>& u, std::vector<Eigen::MatrixXd>& component_sums) const {
+void ElasticSystem::subtract_motion_history(const std::vector<const MotionHistory*>& motions,
+                                            std::vector<Eigen::MatrixXd>& component_sums) const {
   if (!model_.h) return;
   const int components = model_.components();
   std::vector<FamilyTerm> terms;
   std::vector<double*> outputs;
-  for (std::size_t b = 0; b < u.size(); ++b)
+  for (std::size_t b = 0; b < motions.size(); ++b) {
+    const LagHistory& u = motions[b]->lags();
     for (int m = 0; m < components; ++m) {
-      for (int k = 1; k <= u[b]->length(); ++k)
-        if (!u[b]->is_zero(k))
-          terms.push_back({model_.lag_index(k, m), u[b]->lag(k).col(m).data(),
-                           u[b]->coefficients(k).col(m).data(), static_cast<int>(outputs.size()),
-                           -u[b]->factor(k)});
+      for (int k = 1; k <= u.length(); ++k)
+        if (!u.is_zero(k))
+          terms.push_back({model_.lag_index(k, m), u.lag(k).col(m).data(),
+                           u.coefficients(k).col(m).data(), static_cast<int>(outputs.size()),
+                           -u.factor(k)});
       outputs.push_back(component_sums[b].col(m).data());
     }
+  }
   model_.h->multiply_add(terms, outputs);
+}
+
+/// stage_sums -= D(0) u of the motions without acceleration: stresses alone, without a net force
+/// or torque, whatever the codec has made of D(0).
+void ElasticSystem::subtract_stiffness(const std::vector<const MotionHistory*>& motions,
+                                       std::vector<Eigen::MatrixXd>& stage_sums) const {
+  if (!model_.stiffness) return;
+  require(motions.size() == stage_sums.size(), "the inertial form knows the past motions");
+  const MatrixFamily& family = *model_.stiffness;
+  std::vector<Eigen::MatrixXf> coefficients;
+  std::vector<Eigen::MatrixXd> forces;
+  for (const MotionHistory* motion : motions) {
+    const Eigen::MatrixXd& u = motion->unaccelerated();
+    coefficients.emplace_back(static_cast<Eigen::Index>(family.coefficients()), u.cols());
+    family.analyse_columns(u, coefficients.back());
+    forces.push_back(Eigen::MatrixXd::Zero(u.rows(), u.cols()));
+  }
+  std::vector<FamilyTerm> terms;
+  std::vector<double*> outputs;
+  for (std::size_t b = 0; b < motions.size(); ++b)
+    for (Eigen::Index a = 0; a < forces[b].cols(); ++a) {
+      terms.push_back({0, motions[b]->unaccelerated().col(a).data(), coefficients[b].col(a).data(),
+                       static_cast<int>(outputs.size()), 1});
+      outputs.push_back(forces[b].col(a).data());
+    }
+  family.multiply_add(terms, outputs);
+  for (std::size_t b = 0; b < motions.size(); ++b)
+    stage_sums[b] -= forces[b] - rigid_modes_ * (rigid_modes_.transpose() * forces[b]);
 }
 
 void ElasticSystem::add_input_history(const InputColumns& columns, const LagHistory& inputs,
@@ -121,6 +112,7 @@ void SolutionMemory::add(int component, Eigen::VectorXcd u, Eigen::VectorXcd b) 
 
 std::vector<SpectralState> ElasticSystem::solve(
     const std::vector<Eigen::MatrixXd>& component_sums,
+    const std::vector<const MotionHistory*>& motions,
     const std::vector<SolutionMemory*>& memories) const {
   const auto bodies = static_cast<Eigen::Index>(component_sums.size());
   std::vector<Eigen::MatrixXd> stage_sums;
@@ -129,6 +121,7 @@ std::vector<SpectralState> ElasticSystem::solve(
     for (int m = 0; m < model_.components(); ++m)
       stage_sums.back().noalias() += sums.col(m) * scheme().lag_components()[m].left.transpose();
   }
+  subtract_stiffness(motions, stage_sums);
   std::vector<SpectralState> states(component_sums.size());
   for (std::size_t i = 0; i < scheme().initial_components().size(); ++i) {
     const InitialComponent& c = scheme().initial_components()[i];
@@ -155,7 +148,16 @@ std::vector<SpectralState> ElasticSystem::solve(
       states[b].acceleration.push_back(z.col(b));
     }
   }
+  if (model_.stiffness) add_unaccelerated(motions, states);
   return states;
+}
+
+void ElasticSystem::add_unaccelerated(const std::vector<const MotionHistory*>& motions,
+                                      std::vector<SpectralState>& states) const {
+  for (std::size_t b = 0; b < motions.size(); ++b)
+    for (std::size_t i = 0; i < states[b].displacement.size(); ++i)
+      states[b].displacement[i] +=
+          motions[b]->unaccelerated().cast<Complex>() * scheme().initial_components()[i].right;
 }
 
 void ElasticSystem::add_inputs(const InputColumns& columns, const Eigen::MatrixXd& stages,

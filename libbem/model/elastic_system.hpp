@@ -1,51 +1,12 @@
 #pragma once
 
-#include "base/state_archive.hpp"
 #include "model/initial_solver.hpp"
+#include "model/motion_history.hpp"
 #include "model/rigid_projection.hpp"
 
-#include <cmath>
 #include <deque>
 
 namespace bem {
-
-/// What turns the stage values of an input into its component inputs: s x components.
-Eigen::MatrixXd lag_inputs(const Scheme& scheme);
-
-/// Past values of some scalar inputs (displacements, accelerations, loads), kept as the component
-/// inputs right_m . (stage values) that the lag matrices multiply.
-class LagHistory {
- public:
-  LagHistory() = default;
-  /// `family`: what the inputs are multiplied by, if that is compressed; must outlive this.
-  LagHistory(const Scheme& scheme, Eigen::Index inputs, int history_length, double window,
-             const MatrixFamily* family = nullptr);
-
-  /// Makes `stages` (inputs x s) the values of lag 1; older ones move on by one lag.
-  void push(const Eigen::MatrixXd& stages);
-  void visit_state(StateArchive& state);
-
-  /// Component inputs of a lag (inputs x components), 1 <= lag <= history_length.
-  const Eigen::MatrixXd& lag(int k) const { return ring_[slot(k)]; }
-  /// What MatrixFamily::analyse says of them: coefficients x components.
-  const Eigen::MatrixXf& coefficients(int k) const { return coefficients_[slot(k)]; }
-  /// The window's weight on a lag.
-  double factor(int k) const { return std::pow(window_, k); }
-  /// Whether all values of a lag are zero, so that its matrices need not be read.
-  bool is_zero(int k) const { return zero_[slot(k)]; }
-  int length() const { return static_cast<int>(ring_.size()); }
-
- private:
-  std::size_t slot(int k) const { return (newest_ + k - 1) % ring_.size(); }
-
-  Eigen::MatrixXd right_;  ///< s x components
-  double window_ = 1;
-  const MatrixFamily* family_ = nullptr;
-  std::vector<Eigen::MatrixXd> ring_;
-  std::vector<Eigen::MatrixXf> coefficients_;
-  std::vector<char> zero_;
-  std::size_t newest_ = 0;
-};
 
 /// A few scalar inputs that act on a body, with their effect at every lag: accelerations of the
 /// frame, or prescribed loads.
@@ -91,18 +52,21 @@ class ElasticSystem {
   /// With another window than the model's.
   ElasticSystem(const BodyModel& model, double window);
 
-  /// component_sums (3N x components) -= sum_k H_k u_{n-k} for several bodies of the same model.
-  /// Reads every H_k once for all of them.
-  void subtract_displacement_history(const std::vector<const LagHistory*>& u,
-                                     std::vector<Eigen::MatrixXd>& component_sums) const;
+  /// component_sums (3N x components) -= sum_k H_k u_{n-k} for several bodies of the same model; in
+  /// the inertial form Z_k and accelerations take the places of H_k and u. Reads every matrix once
+  /// for all of them.
+  void subtract_motion_history(const std::vector<const MotionHistory*>& motions,
+                               std::vector<Eigen::MatrixXd>& component_sums) const;
 
   /// component_sums += sum_k b_k c_{n-k} for the inputs c of `columns`.
   void add_input_history(const InputColumns& columns, const LagHistory& inputs,
                          Eigen::MatrixXd& component_sums) const;
 
-  /// Displacements without rigid part for the history right-hand sides of several bodies. Reads
-  /// H_0^{-1} once for all of them. `memories` of the bodies help an iterative solution.
+  /// Displacements without rigid part for the history right-hand sides of several bodies, whose
+  /// past motions the inertial form needs. Reads H_0^{-1} once for all of them. `memories` of the
+  /// bodies help an iterative solution.
   std::vector<SpectralState> solve(const std::vector<Eigen::MatrixXd>& component_sums,
+                                   const std::vector<const MotionHistory*>& motions = {},
                                    const std::vector<SolutionMemory*>& memories = {}) const;
 
   /// Adds the effect of inputs at the current step (inputs x s stage values).
@@ -126,7 +90,7 @@ class ElasticSystem {
   /// The model's scheme, windowed.
   const Scheme& scheme() const { return scheme_; }
   LagHistory make_history(Eigen::Index inputs) const;
-  LagHistory make_displacement_history() const;
+  MotionHistory make_motion_history() const { return MotionHistory(model_, window_); }
 
   /// Columns from right-hand sides at lag 0 by initial component (3N x inputs) and at the later
   /// lags.
@@ -138,6 +102,10 @@ class ElasticSystem {
 
  private:
   Eigen::MatrixXd stages(const std::vector<Eigen::VectorXcd>& spectral) const;
+  void subtract_stiffness(const std::vector<const MotionHistory*>& motions,
+                          std::vector<Eigen::MatrixXd>& stage_sums) const;
+  void add_unaccelerated(const std::vector<const MotionHistory*>& motions,
+                         std::vector<SpectralState>& states) const;
 
   const BodyModel& model_;
   double window_;
@@ -145,6 +113,7 @@ class ElasticSystem {
   std::vector<std::unique_ptr<InitialSolver>> solvers_;
   RigidProjection projection_;
   InputColumns body_force_;
+  Eigen::MatrixXd rigid_modes_;  ///< orthonormal, 3N x 6; of the inertial form
 };
 
 }  // namespace bem

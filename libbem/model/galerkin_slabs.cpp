@@ -14,31 +14,47 @@ GalerkinSlabs<T>::GalerkinSlabs(BodyModel& model, AssemblyPrecision precision)
       assembler_(model.geometry.nodes, model.geometry.extent, model.discretisation),
       combination_(model.discretisation, assembler_.layout()) {}
 
+/// f(rows) with rows of nodes [first, last) and some more, in the precision that was asked for.
 template <class T>
-void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
-  this->prepare(first, last, slab);
-  if (precision_ == AssemblyPrecision::single)
-    assemble_rows(first, last, single_, slab);
-  else
-    assemble_rows(first, last, double_, slab);
+template <class F>
+void GalerkinSlabs<T>::with_rows(int first, int last, const F& f) {
+  if (precision_ == AssemblyPrecision::single) {
+    load_rows(first, last, single_);
+    f(single_);
+  } else {
+    load_rows(first, last, double_);
+    f(double_);
+  }
+}
+
+/// As many rows as have room, so that few triangles are gone through again for the next ones.
+template <class T>
+int GalerkinSlabs<T>::rows_in_memory() const {
+  constexpr double kMostBytes = 400e6;
+  const double entry = precision_ == AssemblyPrecision::single ? sizeof(float) : sizeof(double);
+  const int n = static_cast<int>(this->model_.nodes());
+  const double per_row = 18.0 * n * assembler_.layout().count() * entry;
+  return static_cast<int>(std::min<double>(n, kMostBytes / per_row));
 }
 
 template <class T>
 template <class S>
-void GalerkinSlabs<T>::assemble_rows(int first, int last, GalerkinRows<S>& rows,
-                                     MatrixSlab<T>& slab) {
-  if (first < rows.first || last > rows.last) {
-    // as many rows as have room, so that few triangles are gone through again for the next ones
-    constexpr double kMostBytes = 400e6;
-    const int n = static_cast<int>(this->model_.nodes());
-    const double per_row = 18.0 * n * assembler_.layout().count() * sizeof(S);
-    const int some = std::max(last - first, static_cast<int>(kMostBytes / per_row));
-    assembler_.assemble(first, std::min(n, first + some), rows);
-  }
-  parallel_for(last - first, [&](std::size_t row) {
-    const int node = first + static_cast<int>(row);
-    distribute_row(rows, node - rows.first, slab);
-    distribute_body_forces(rows, node - rows.first);
+void GalerkinSlabs<T>::load_rows(int first, int last, GalerkinRows<S>& rows) const {
+  if (first >= rows.first && last <= rows.last) return;
+  const int n = static_cast<int>(this->model_.nodes());
+  assembler_.assemble(first, std::min(n, std::max(last, first + rows_in_memory())), rows);
+}
+
+template <class T>
+void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
+  this->prepare(first, last, slab);
+  if (is_inertial()) slab.stiffness.resize(3 * (last - first), slab.initial_h.at(0).cols());
+  with_rows(first, last, [&](const auto& rows) {
+    parallel_for(last - first, [&](std::size_t row) {
+      const int node = first + static_cast<int>(row);
+      distribute_row(rows, node - rows.first, slab);
+      distribute_body_forces(rows, node - rows.first);
+    });
   });
 }
 
@@ -47,23 +63,23 @@ template <class S>
 void GalerkinSlabs<T>::distribute_row(const GalerkinRows<S>& rows, int row, MatrixSlab<T>& slab) {
   const int n = static_cast<int>(this->model_.nodes()), count = this->layout_.count();
   const int initial = this->layout_.initial;
-  std::vector<double> h(count), g(count);
+  std::vector<double> lanes(count);
   for (int j = 0; j < n; ++j)
     for (int e = 0; e < 9; ++e) {
       const Eigen::Index from = 3 * row + e / 3, to = 3 * (rows.first + row - slab.first) + e / 3,
                          column = 3 * j + e % 3;
-      combination_.h(rows.static_h(from, column),
-                     rows.inertia_block(row, j) + e * rows.padded_lanes, h.data());
-      const auto write = [&](const std::vector<double>& lanes, auto& initial_matrices, auto& lags) {
-        for (int lane = 0; lane < initial; ++lane) initial_matrices[lane](to, column) = lanes[lane];
-        for (int lane = initial; lane < count; ++lane)
-          lags[lane - initial](to, column) = static_cast<T>(lanes[lane]);
-      };
-      write(h, slab.initial_h, slab.h);
+      const S* z = rows.inertia_block(row, j) + e * rows.padded_lanes;
+      combination_.initial_h(rows.static_h(from, column), z, lanes.data());
+      for (int lane = 0; lane < initial; ++lane) slab.initial_h[lane](to, column) = lanes[lane];
+      for (int lane = initial; lane < count; ++lane)
+        slab.h[lane - initial](to, column) = static_cast<T>(z[lane]);
+      if (is_inertial()) slab.stiffness(to, column) = static_cast<T>(rows.static_h(from, column));
       if (!this->is_loaded(j)) continue;
       combination_.g(rows.static_g(from, column),
-                     rows.adjoint_block(row, j) + e * rows.padded_lanes, g.data());
-      write(g, slab.initial_g, slab.g);
+                     rows.adjoint_block(row, j) + e * rows.padded_lanes, lanes.data());
+      for (int lane = 0; lane < initial; ++lane) slab.initial_g[lane](to, column) = lanes[lane];
+      for (int lane = initial; lane < count; ++lane)
+        slab.g[lane - initial](to, column) = static_cast<T>(lanes[lane]);
     }
 }
 
@@ -106,32 +122,48 @@ void GalerkinSlabs<T>::distribute_body_forces(const GalerkinRows<S>& rows, int r
 }
 
 template <class T>
-typename SlabAssembler<T>::Norms GalerkinSlabs<T>::estimate_norms() const {
+template <class S>
+void GalerkinSlabs<T>::add_squares(const GalerkinRows<S>& rows, int row,
+                                   typename SlabAssembler<T>::Norms& sum) const {
+  const int count = this->layout_.count(), initial = this->layout_.initial;
+  std::vector<double> lanes(count);
+  const auto square = [](double a) { return a * a; };
+  for (int j = 0; j < rows.nodes; ++j)
+    for (int e = 0; e < 9; ++e) {
+      const Eigen::Index from = 3 * row + e / 3, column = 3 * j + e % 3;
+      const S* z = rows.inertia_block(row, j) + e * rows.padded_lanes;
+      sum.stiffness += square(rows.static_h(from, column));
+      combination_.initial_h(rows.static_h(from, column), z, lanes.data());
+      for (int lane = 0; lane < initial; ++lane) sum.initial_h += square(lanes[lane]);
+      for (int lane = initial; lane < count; ++lane) sum.h += square(z[lane]);
+      if (!this->is_loaded(j)) continue;
+      combination_.g(rows.static_g(from, column),
+                     rows.adjoint_block(row, j) + e * rows.padded_lanes, lanes.data());
+      for (int lane = 0; lane < count; ++lane)
+        (lane < initial ? sum.initial_g : sum.g) += square(lanes[lane]);
+    }
+}
+
+/// From all rows if they have room, which are assembled anyway, else from some single ones.
+template <class T>
+typename SlabAssembler<T>::Norms GalerkinSlabs<T>::estimate_norms() {
   constexpr int kSamples = 6;
-  const int n = static_cast<int>(this->model_.nodes()), samples = std::min(n, kSamples);
-  const int count = this->layout_.count();
+  const int n = static_cast<int>(this->model_.nodes());
   typename SlabAssembler<T>::Norms sum;
-  std::vector<double> h(count), g(count);
+  if (rows_in_memory() >= n) {
+    with_rows(0, n, [&](const auto& rows) {
+      for (int i = 0; i < n; ++i) add_squares(rows, i, sum);
+    });
+    return sum.root(1);
+  }
+  const int samples = std::min(n, kSamples);
   for (int i = 0; i < samples; ++i) {
     const int node = static_cast<int>((2L * i + 1) * n / (2 * samples));
     GalerkinRows<float> rows;
     assembler_.assemble(node, node + 1, rows);
-    for (int j = 0; j < n; ++j)
-      for (int e = 0; e < 9; ++e) {
-        combination_.h(rows.static_h(e / 3, 3 * j + e % 3),
-                       rows.inertia_block(0, j) + e * rows.padded_lanes, h.data());
-        combination_.g(rows.static_g(e / 3, 3 * j + e % 3),
-                       rows.adjoint_block(0, j) + e * rows.padded_lanes, g.data());
-        for (int lane = 0; lane < count; ++lane) {
-          const bool initial = lane < this->layout_.initial;
-          (initial ? sum.initial_h : sum.h) += h[lane] * h[lane];
-          if (this->is_loaded(j)) (initial ? sum.initial_g : sum.g) += g[lane] * g[lane];
-        }
-      }
+    add_squares(rows, 0, sum);
   }
-  const double scale = static_cast<double>(n) / samples;
-  return {std::sqrt(scale * sum.h), std::sqrt(scale * sum.g), std::sqrt(scale * sum.initial_h),
-          std::sqrt(scale * sum.initial_g)};
+  return sum.root(static_cast<double>(n) / samples);
 }
 
 template class GalerkinSlabs<float>;

@@ -13,12 +13,20 @@ class GalerkinSlabs : public SlabAssembler<T> {
   GalerkinSlabs(BodyModel& model, AssemblyPrecision precision);
 
   void assemble(int first, int last, MatrixSlab<T>& slab) override;
-  typename SlabAssembler<T>::Norms estimate_norms() const override;
+  typename SlabAssembler<T>::Norms estimate_norms() override;
   double row_sum_residual() const override { return 0; }  // rigid translation is exact
+  /// Without a history nothing is multiplied but by lag 0.
+  bool is_inertial() const override { return this->model_.has_history(); }
 
  private:
+  template <class F>
+  void with_rows(int first, int last, const F& f);
   template <class S>
-  void assemble_rows(int first, int last, GalerkinRows<S>& rows, MatrixSlab<T>& slab);
+  void load_rows(int first, int last, GalerkinRows<S>& rows) const;
+  template <class S>
+  void add_squares(const GalerkinRows<S>& rows, int row,
+                   typename SlabAssembler<T>::Norms& sum) const;
+  int rows_in_memory() const;
   template <class S>
   void distribute_row(const GalerkinRows<S>& rows, int row, MatrixSlab<T>& slab);
   template <class S>

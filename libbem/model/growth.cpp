@@ -19,14 +19,15 @@ class FreeRecursion {
       : system_(model, 1),
         unknowns_(static_cast<Eigen::Index>(3 * model.nodes())),
         stages_(model.discretisation.scheme.stages()),
-        length_(model.discretisation.history_length),
+        length_(system_.make_motion_history().reach()),
         dt_(model.discretisation.dt) {}
 
   Eigen::Index size() const { return length_ * step_size(); }
 
   Eigen::VectorXd apply(const Eigen::VectorXd& state) const {
     const Scheme& scheme = system_.scheme();
-    LagHistory u = system_.make_displacement_history(), a = system_.make_history(6);
+    MotionHistory u = system_.make_motion_history();
+    LagHistory a = system_.make_history(6);
     for (int k = length_; k >= 1; --k) {
       const double* step = state.data() + (k - 1) * step_size();
       u.push(Eigen::Map<const Eigen::MatrixXd>(step, unknowns_, stages_));
@@ -35,9 +36,9 @@ class FreeRecursion {
     }
     std::vector<Eigen::MatrixXd> sums = {Eigen::MatrixXd::Zero(
         unknowns_, static_cast<Eigen::Index>(scheme.lag_components().size()))};
-    system_.subtract_displacement_history({&u}, sums);
+    system_.subtract_motion_history({&u}, sums);
     system_.add_input_history(system_.body_force(), a, sums[0]);
-    const SpectralState next = system_.solve(sums)[0];
+    const SpectralState next = system_.solve(sums, {&u})[0];
     Eigen::VectorXd out(size());
     Eigen::Map<Eigen::MatrixXd>(out.data(), unknowns_, stages_) = system_.displacement_stages(next);
     Eigen::Map<Eigen::MatrixXd>(out.data() + unknowns_ * stages_, 6, stages_) =

@@ -46,11 +46,15 @@ class RotationResidual {
 };
 
 template <class T>
+MatrixView<T> view(const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>& m) {
+  return {m.data(), m.rows(), m.cols(), Eigen::OuterStride<>(m.rows())};
+}
+
+template <class T>
 std::vector<MatrixView<T>> views(
     const std::vector<Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>>& matrices) {
   std::vector<MatrixView<T>> out;
-  for (const auto& m : matrices)
-    out.emplace_back(m.data(), m.rows(), m.cols(), Eigen::OuterStride<>(m.rows()));
+  for (const auto& m : matrices) out.push_back(view(m));
   return out;
 }
 
@@ -69,6 +73,7 @@ void for_each_initial(const Scheme& scheme, const F& f) {
 template <class T>
 struct Targets {
   std::unique_ptr<FamilyBuilder<T>> h, g;                               ///< lags, if any
+  std::unique_ptr<FamilyBuilder<T>> stiffness;                          ///< of the inertial form
   std::vector<std::unique_ptr<FamilyBuilder<T>>> initial_h, initial_g;  ///< by initial component
   std::vector<InitialMatrix> dense_h, dense_g;  ///< the same, to be inverted
   std::optional<MatrixSlab<T>> known;           ///< a slab that is assembled already
@@ -104,6 +109,7 @@ void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vect
     rotation.add(slab);
     if (targets.h) targets.h->add_rows(views(slab.h));
     if (targets.g) targets.g->add_rows(views(slab.g));
+    if (targets.stiffness) targets.stiffness->add_rows({view(slab.stiffness)});
     for_each_initial(model.discretisation.scheme, [&](std::size_t i, int part, int parts) {
       set_dense(targets.dense_h, i, slab.initial_h, part, parts);
       set_dense(targets.dense_g, i, slab.initial_g, part, parts);
@@ -158,6 +164,7 @@ void take_families(Targets<T>& targets, BodyModel& model) {
   ModelReport::CodecErrors& errors = model.report.codec_errors;
   if (targets.h) errors.h = finish(*targets.h, model.h);
   if (targets.g) errors.g = finish(*targets.g, model.g);
+  if (targets.stiffness) errors.stiffness = finish(*targets.stiffness, model.stiffness);
   const auto take = [](auto& builders, auto& families, double& error) {
     for (auto& builder : builders) {
       families.emplace_back();
@@ -176,6 +183,8 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
   const auto assembler = make_slab_assembler<T>(model, assembly_precision(options));
   Targets<T> targets;
   const auto builder = [&](int count) { return make_direct_builder<T>(options.codec, n, count); };
+  if (assembler->is_inertial())
+    targets.stiffness = make_direct_builder<T>(stiffness_codec(options.codec), n, 1);
   if (model.has_history()) targets.h = builder(assembler->lag_count());
   if (model.has_history() && tractions) targets.g = builder(assembler->lag_count());
   if (options.inverse == InverseKind::dense) {
@@ -210,6 +219,9 @@ class CompressedBuilders {
 
   std::unique_ptr<LowRankBuilder> h() const { return builder(sample_.h, norms_.h, tolerance_); }
   std::unique_ptr<LowRankBuilder> g() const { return builder(sample_.g, norms_.g, tolerance_); }
+  std::unique_ptr<LowRankBuilder> stiffness(double tolerance) const {
+    return builder({sample_.stiffness}, norms_.stiffness, tolerance);
+  }
   /// Of parts of H_0 or G_0. `part_of_tolerance`: less than one for what is an ingredient only.
   std::unique_ptr<LowRankBuilder> initial_h(int first, int count) const {
     return builder(parts(sample_.initial_h, first, count), norms_.initial_h, tolerance_);
@@ -250,6 +262,8 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
   Targets<float> targets;
   if (model.has_history()) targets.h = builders.h();
   if (model.has_history() && tractions) targets.g = builders.g();
+  if (assembler.is_inertial())
+    targets.stiffness = builders.stiffness(stiffness_codec(options.codec).tolerance);
   if (!iterative) targets.dense_h = dense_matrices(model);
   for_each_initial(model.discretisation.scheme, [&](std::size_t, int part, int parts) {
     if (iterative) targets.initial_h.push_back(builders.initial_h(part, parts));

@@ -3,6 +3,8 @@
 #include "compress/codec.hpp"
 #include "model/slab_assembly.hpp"
 
+#include <algorithm>
+
 namespace bem {
 
 struct PrecomputeOptions {
@@ -18,6 +20,15 @@ struct PrecomputeOptions {
   double window = 0;              ///< 0: the weakest that keeps the measured growth at or below 1
   bool measure_growth = true;
 };
+
+/// How D(0) of the inertial form is stored: displacements of slow motions are multiplied by it,
+/// whose forces are a small part of what its largest entries make of others.
+inline CodecOptions stiffness_codec(CodecOptions options) {
+  constexpr double kPart = 1e-3, kSmallest = 1e-7;  // single precision
+  options.tolerance = std::max(kSmallest, kPart * options.tolerance);
+  options.ratio = 0;
+  return options;
+}
 
 /// Computes all matrices of a body. Bit-identical for any number of threads. Throws
 /// ErrorCode::numerical if the automatic window would leave less than a hundredth of a motion after

@@ -24,6 +24,15 @@ Eigen::MatrixXd rigid_part(const TriangleMesh& mesh) {
   return rigid;
 }
 
+Eigen::MatrixXd orthonormal_rigid_modes(const TriangleMesh& mesh) {
+  const auto n = static_cast<Eigen::Index>(mesh.vertices.size());
+  Eigen::MatrixXd rigid(3 * n, 6);
+  for (Eigen::Index i = 0; i < n; ++i)
+    rigid.middleRows<3>(3 * i) << Mat3::Identity(), -cross_matrix(mesh.vertices[i]);
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(rigid).householderQ() *
+         Eigen::MatrixXd::Identity(3 * n, 6);
+}
+
 RigidProjection::RigidProjection(Eigen::MatrixXd rigid, std::vector<Eigen::MatrixXcd> body_response)
     : rigid_(std::move(rigid)), response_(std::move(body_response)) {
   for (const Eigen::MatrixXcd& b : response_) {

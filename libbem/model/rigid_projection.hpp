@@ -9,6 +9,9 @@ namespace bem {
 /// [rad]. 6 x 3N.
 Eigen::MatrixXd rigid_part(const TriangleMesh& centred_mesh);
 
+/// Orthonormal columns (3N x 6) that span the rigid displacements of the nodes.
+Eigen::MatrixXd orthonormal_rigid_modes(const TriangleMesh& centred_mesh);
+
 /// Removes rigid motion from displacements by choosing the accelerations of the frame (M53), (M54):
 /// u = v - B z with z = (Pi B)^{-1} Pi v and B = H_0^{-1} [D_0 Q_0], for each initial component.
 class RigidProjection {

@@ -4,6 +4,8 @@
 #include "model/collocation_slabs.hpp"
 #include "model/galerkin_slabs.hpp"
 
+#include <cmath>
+
 namespace bem {
 namespace {
 
@@ -74,6 +76,12 @@ void SlabAssembler<T>::distribute_columns(int node, const double* from, int entr
       lane += paired ? 2 : 1;
     }
   }
+}
+
+template <class T>
+typename SlabAssembler<T>::Norms SlabAssembler<T>::Norms::root(double scale) const {
+  return {std::sqrt(scale * h), std::sqrt(scale * g), std::sqrt(scale * stiffness),
+          std::sqrt(scale * initial_h), std::sqrt(scale * initial_g)};
 }
 
 template <class T>

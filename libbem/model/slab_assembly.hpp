@@ -18,6 +18,7 @@ struct MatrixSlab {
   using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
   int first = 0, last = 0;
   std::vector<Matrix> h, g;  ///< lags >= 1, by lag index
+  Matrix stiffness;          ///< D(0) of the inertial form
   /// Lag 0: real and, of complex components, imaginary parts, one component after another.
   std::vector<Eigen::MatrixXd> initial_h, initial_g;
 };
@@ -38,11 +39,15 @@ class SlabAssembler {
 
   /// Frobenius norms of all matrices of a kind together, estimated from some of their rows.
   struct Norms {
-    double h = 0, g = 0, initial_h = 0, initial_g = 0;
+    double h = 0, g = 0, stiffness = 0, initial_h = 0, initial_g = 0;
+    /// Of sums of squares, times `scale`.
+    Norms root(double scale) const;
   };
-  virtual Norms estimate_norms() const = 0;
+  virtual Norms estimate_norms() = 0;
 
   virtual double row_sum_residual() const = 0;
+  /// Whether lags of h multiply accelerations, and slabs have `stiffness`.
+  virtual bool is_inertial() const = 0;
 
   /// Matrices of lags >= 1, and parts of lag 0.
   int lag_count() const { return layout_.count() - layout_.initial; }

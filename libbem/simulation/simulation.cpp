@@ -225,18 +225,18 @@ void Simulation::begin_step() {
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     if (bodies_[b].is_rigid()) begin(static_cast<int>(b), {});
   for (const std::vector<int>& group : sharing_) {
-    std::vector<const LagHistory*> histories;
+    std::vector<const MotionHistory*> motions;
     std::vector<Eigen::MatrixXd> sums;
     for (int b : group) {
-      histories.push_back(&bodies_[b].displacement_history());
+      motions.push_back(&bodies_[b].motion_history());
       sums.push_back(bodies_[b].history_sums());
     }
     const ElasticSystem& system = bodies_[group[0]].system();
-    system.subtract_displacement_history(histories, sums);
+    system.subtract_motion_history(motions, sums);
     std::vector<SolutionMemory*> memories;
     for (int b : group)
       if (system.model().is_iterative()) memories.push_back(&bodies_[b].solution_memory());
-    std::vector<SpectralState> states = system.solve(sums, memories);
+    std::vector<SpectralState> states = system.solve(sums, motions, memories);
     for (std::size_t i = 0; i < group.size(); ++i) begin(group[i], std::move(states[i]));
   }
 }

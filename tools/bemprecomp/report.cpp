@@ -66,6 +66,7 @@ Json report_json(const ModelReport& r) {
             {"g", r.codec_errors.g},
             {"inverse", r.codec_errors.inverse},
             {"traction_response", r.codec_errors.traction_response},
+            {"stiffness", r.codec_errors.stiffness},
             {"initial_h", r.codec_errors.initial_h},
             {"initial_g", r.codec_errors.initial_g}}}};
 }
@@ -166,11 +167,14 @@ namespace {
 
 void print_codec_errors(Table& table, const Archive& archive) {
   const ModelReport::CodecErrors& e = archive.report().codec_errors;
+  const char* lags = archive.is_inertial() ? "Z " : "H ";
+  std::ostringstream stiffness;
+  if (archive.is_inertial()) stiffness << "D(0) " << e.stiffness << ", ";
   if (archive.is_iterative())
-    table.line("codec errors", "H ", e.h, ", G ", e.g, ", H_0 ", e.initial_h, ", G_0 ",
-               e.initial_g);
+    table.line("codec errors", stiffness.str(), lags, e.h, ", G ", e.g, ", H_0 ", e.initial_h,
+               ", G_0 ", e.initial_g);
   else
-    table.line("codec errors", "H ", e.h, ", G ", e.g, ", inverse ", e.inverse,
+    table.line("codec errors", stiffness, lags, e.h, ", G ", e.g, ", inverse ", e.inverse,
                ", traction response ", e.traction_response);
 }
 

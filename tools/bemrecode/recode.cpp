@@ -5,6 +5,7 @@
 #include "compress/direct_builder.hpp"
 #include "compress/low_rank_builder.hpp"
 #include "model/balance.hpp"
+#include "model/precompute.hpp"
 
 #include <cmath>
 
@@ -76,6 +77,7 @@ std::vector<NamedFamily> families_of(BodyModel& model) {
   ModelReport::CodecErrors& e = model.report.codec_errors;
   std::vector<NamedFamily> out = {{"h", &model.h, &e.h}};
   if (model.g) out.push_back({"g", &model.g, &e.g});
+  if (model.stiffness) out.push_back({"stiffness", &model.stiffness, &e.stiffness});
   const auto add = [&](const char* name, auto& families, double& error) {
     for (auto& family : families) out.push_back({name, &family, &error});
   };
@@ -98,7 +100,9 @@ const DenseFamily<float>& dense_family(const NamedFamily& named) {
 void recode(BodyModel& model, const CodecOptions& options) {
   for (const NamedFamily& named : families_of(model)) {
     double error = 0;
-    *named.family = recode(dense_family(named), model.geometry.nodes.vertices, options, error);
+    const bool stiffness = named.family == &model.stiffness;
+    *named.family = recode(dense_family(named), model.geometry.nodes.vertices,
+                           stiffness ? stiffness_codec(options) : options, error);
     *named.error = std::max(*named.error, error);
   }
   model.codec = options.codec;
