@@ -109,12 +109,13 @@ double Body::window_rate() const {
 }
 
 /// The leak of the frame offset: the window. A free body has a slow leak besides, so that the small
-/// imbalance of the discretisation cannot accumulate.
+/// imbalance of the discretisation cannot accumulate. In the inertial form only the codec's remains
+/// (with its default 7e-6 of the velocity that a push gives a rod).
 double Body::leak(bool held) const {
-  constexpr double kLeakPerTraversal = 0.05;
   const BodyModel& m = *shared_.model;
+  const double per_traversal = m.stiffness ? 0.005 : 0.05;
   const double traversal = m.geometry.extent / m.discretisation.material.shear_speed();
-  return held ? window_rate() : std::max(window_rate(), kLeakPerTraversal / traversal);
+  return held ? window_rate() : std::max(window_rate(), per_traversal / traversal);
 }
 
 /// The window on the rigid motion of a held body: a drag relative to its holder.
