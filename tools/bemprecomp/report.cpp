@@ -174,7 +174,7 @@ void print_codec_errors(Table& table, const Archive& archive) {
     table.line("codec errors", stiffness.str(), lags, e.h, ", G ", e.g, ", H_0 ", e.initial_h,
                ", G_0 ", e.initial_g);
   else
-    table.line("codec errors", stiffness, lags, e.h, ", G ", e.g, ", inverse ", e.inverse,
+    table.line("codec errors", stiffness.str(), lags, e.h, ", G ", e.g, ", inverse ", e.inverse,
                ", traction response ", e.traction_response);
 }
 
