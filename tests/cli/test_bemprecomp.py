@@ -131,7 +131,7 @@ class Usage(CliCase):
             (["--codec", "zip"], "--codec"), (["--codec", "none", "--codec-tol", "1e-3"], "--codec lowrank"),
             (["--codec-tol", "1e-9"], "--codec-tol"),
             (["--compression-ratio", "4"], "--codec haar"),
-            (["--corner-angle-deg", "0"], "between 0 and 180"), (["--corner-angle-deg", "x"], "none or an angle"),
+            (["--corner-angle-deg", "0"], "between 0 and 180"), (["--corner-angle-deg", "x"], "auto, none or an angle"),
             (["--damping", "0.1"], "kelvin_voigt:T"), (["--damping", "kelvin_voigt:0"], "kelvin_voigt:T"),
             (["--damping", "zener:0.1"], "kelvin_voigt:T"), (["--damping"], "--damping needs a value"),
             (["--damping", "kelvin_voigt:0.1:1"], "kelvin_voigt:T"),
