@@ -1,0 +1,116 @@
+#include "assembly/galerkin_assembler.hpp"
+#include "assembly/galerkin_laplace.hpp"
+#include "mesh/extent.hpp"
+#include "support/bodies.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace bem;
+using namespace bem_test;
+
+namespace {
+
+Discretisation discretisation(const char* scheme, double extent, double poisson) {
+  Discretisation d;
+  d.material = material(1000, 1e6, poisson);
+  d.scheme = Scheme::parse(scheme);
+  d.dt = extent / (2 * d.material.shear_speed());
+  d.history_length = 5;
+  d.quadrature_tolerance = 1e-6;
+  d.method = SpatialMethod::galerkin;
+  return d;
+}
+
+double difference(const Eigen::MatrixXcd& found, const Eigen::MatrixXcd& expected) {
+  return (found - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
+}
+
+/// Rows of H, G, [D Q] of an initial component from the lanes of lag 0.
+template <class T>
+LaplaceMatrices matrices_of(const GalerkinRows<T>& rows, const GalerkinCombination& combination,
+                            const InitialComponent& component, int first_lane, int lanes) {
+  const int count = rows.last - rows.first, n = rows.nodes;
+  LaplaceMatrices out;
+  out.h = out.g = Eigen::MatrixXcd::Zero(3 * count, 3 * n);
+  std::vector<double> h(lanes), g(lanes);
+  const auto value = [&](const std::vector<double>& from) {
+    return Complex(from[first_lane], component.paired ? from[first_lane + 1] : 0.0);
+  };
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int e = 0; e < 9; ++e) {
+        const Eigen::Index r = 3 * i + e / 3, c = 3 * j + e % 3;
+        combination.initial_h(rows.static_h(r, c), rows.inertia_block(i, j) + e * rows.padded_lanes,
+                              h.data());
+        combination.g(rows.static_g(r, c), rows.adjoint_block(i, j) + e * rows.padded_lanes,
+                      g.data());
+        out.h(r, c) = value(h);
+        out.g(r, c) = value(g);
+      }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("assembled rows of lag 0 are those of the scalar reference") {
+  for (const TriangleMesh& mesh : {star(1, 0.4), box(Vec3(1, 0.6, 0.5), {3, 1, 1})})
+    for (const char* scheme : {"radau2", "theta:0.5"}) {
+      const TriangleMesh nodes = centred(mesh);
+      const double size = diameter(nodes.vertices);
+      const Discretisation d = discretisation(scheme, size, 0.3);
+      const GalerkinAssembler assembler(nodes, size, d);
+      const GalerkinCombination combination(d, assembler.layout());
+      const int n = static_cast<int>(nodes.vertices.size()), first = n / 3, last = 2 * n / 3;
+      GalerkinRows<double> rows;
+      assembler.assemble(first, last, rows);
+      GalerkinRows<float> narrow;
+      assembler.assemble(first, last, narrow);
+      int lane = 0;
+      for (const InitialComponent& c : d.scheme.initial_components()) {
+        const LaplaceMatrices expected =
+            galerkin_laplace_matrices(nodes, assembler.reconstruction(), d.material,
+                                      c.eigenvalue / d.dt, d.quadrature_tolerance);
+        const auto part = [&](const Eigen::MatrixXcd& m) {
+          return Eigen::MatrixXcd(m.middleRows(3 * first, 3 * (last - first)));
+        };
+        INFO(scheme << ", " << n << " nodes");
+        const int lanes = assembler.layout().count();
+        const LaplaceMatrices found = matrices_of(rows, combination, c, lane, lanes);
+        CHECK(difference(found.h, part(expected.h)) < 2e-6);
+        CHECK(difference(found.g, part(expected.g)) < 2e-6);
+        const LaplaceMatrices single = matrices_of(narrow, combination, c, lane, lanes);
+        CHECK(difference(single.h, part(expected.h)) < 5e-6);
+        CHECK(difference(single.g, part(expected.g)) < 5e-6);
+        lane += c.paired ? 2 : 1;
+      }
+    }
+}
+
+TEST_CASE("loads on triangles are those of nodal tractions where these are the same") {
+  const TriangleMesh nodes = centred(box(Vec3(1, 0.6, 0.5), {2, 1, 1}));
+  const double size = diameter(nodes.vertices);
+  const Discretisation d = discretisation("radau2", size, 0.3);
+  const GalerkinAssembler assembler(nodes, size, d);
+  const GalerkinCombination combination(d, assembler.layout());
+  const int n = static_cast<int>(nodes.vertices.size()), lanes = assembler.layout().count();
+  GalerkinRows<double> rows;
+  assembler.assemble(0, n, rows);
+  // all triangles around node 1 with its hat function
+  std::vector<PanelLoad> loads;
+  for (int t = 0; t < static_cast<int>(nodes.triangles.size()); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (nodes.triangles[t][k] == 1) loads.push_back({t, Eigen::Matrix3d::Identity(), k});
+  const std::vector<Eigen::MatrixXd> found = assembler.assemble_loads(loads);
+  double worst = 0, largest = 0;
+  std::vector<double> out(lanes);
+  for (int i = 0; i < n; ++i)
+    for (int e = 0; e < 9; ++e) {
+      combination.g(rows.static_g(3 * i + e / 3, 3 + e % 3),
+                    rows.adjoint_block(i, 1) + e * rows.padded_lanes, out.data());
+      for (int lane = 0; lane < lanes; ++lane) {
+        worst = std::max(worst, std::abs(found[lane](3 * i + e / 3, e % 3) - out[lane]));
+        largest = std::max(largest, std::abs(out[lane]));
+      }
+    }
+  CHECK(worst < 1e-6 * largest);
+}
