@@ -23,11 +23,56 @@ int slot_of(const std::vector<int>& nodes, int node) {
 
 }  // namespace
 
-/// Neighbouring triangles of y, and the nodes whose basis functions do not vanish on them.
+/// Neighbouring triangles of y. Sums are taken by their shape functions, hats of corners and
+/// bubbles of edges, and only then combined to the basis functions of the nodes that reach them.
 struct GalerkinAssembler::Cluster {
   int begin = 0, end = 0;  ///< triangles
-  std::vector<int> nodes;  ///< ascending
+  std::vector<int> nodes;  ///< whose basis functions do not vanish here, ascending
+  std::vector<std::array<int, 6>>
+      shapes;             ///< by triangle: numbers of its hats, then of its bubbles
+  std::vector<int> hats;  ///< by shape: number of the node; bubbles follow
+  std::vector<std::vector<std::pair<int, double>>> bubbles;  ///< numbers of nodes, and rho
+
+  int shape_count() const { return static_cast<int>(hats.size() + bubbles.size()); }
+  Cluster(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction, int first, int last);
 };
+
+GalerkinAssembler::Cluster::Cluster(const TriangleMesh& mesh,
+                                    const EdgeReconstruction& reconstruction, int first, int last)
+    : begin(first), end(last) {
+  const auto& rho = reconstruction.coefficients();
+  using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+  std::map<int, int> corners, edges;  // by vertex and by edge: number
+  for (int t = begin; t < end; ++t)
+    for (int k = 0; k < 3; ++k) {
+      corners.emplace(mesh.triangles[t][k], 0);
+      edges.emplace(reconstruction.edges().of[t][k], 0);
+    }
+  for (auto& [vertex, number] : corners) nodes.push_back(vertex);
+  for (auto& [edge, number] : edges)
+    for (Row it(rho, edge); it; ++it)
+      if (it.value() != 0) nodes.push_back(static_cast<int>(it.col()));
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  for (auto& [vertex, number] : corners) {
+    number = static_cast<int>(hats.size());
+    hats.push_back(slot_of(nodes, vertex));
+  }
+  for (auto& [edge, number] : edges) {
+    number = shape_count();
+    bubbles.emplace_back();
+    for (Row it(rho, edge); it; ++it)
+      if (it.value() != 0)
+        bubbles.back().emplace_back(slot_of(nodes, static_cast<int>(it.col())), it.value());
+  }
+  for (int t = begin; t < end; ++t) {
+    shapes.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      shapes.back()[k] = corners.at(mesh.triangles[t][k]);
+      shapes.back()[3 + k] = edges.at(reconstruction.edges().of[t][k]);
+    }
+  }
+}
 
 /// A triangle of x on which basis functions of wanted rows do not vanish: which, and their shapes.
 struct GalerkinAssembler::RowTriangle {
@@ -44,11 +89,16 @@ struct GalerkinAssembler::Block {
   Eigen::MatrixXd static_h, static_g;  ///< 3 rows x 3 columns
 };
 
+/// What one triangle of x has with the triangles of a cluster, by the shape functions of x.
 template <class T>
 struct GalerkinAssembler::Workspace {
   PairBatch batch;
   PairScratch<T> scratch;
-  AlignedVector<T> sums, strain;
+  AlignedVector<T> inertia, adjoint;  ///< [shape or hat of y][3x3 entry][shape of x][padded lane]
+  AlignedVector<T> uniform;           ///< see PairSums
+  AlignedVector<T> strain;            ///< [3 axes x 6][shape of x][padded lane]
+  AlignedVector<T> by_node;           ///< inertia by the nodes of the cluster
+  Eigen::MatrixXd static_h, static_g, static_by_node;  ///< 18 x 3 per shape, hat, node of y
 };
 
 GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
@@ -66,16 +116,9 @@ GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
   require(d.dt > 0 && d.history_length >= 0, "dt and the length of the history are possible");
   const int count = static_cast<int>(mesh.triangles.size());
   for (int t = 0; t < count; ++t) bases_.push_back(triangle_basis(mesh, reconstruction_, t));
-  for (int begin = 0; begin < count; begin += kClusterTriangles) {
-    Cluster c;
-    c.begin = begin;
-    c.end = std::min(begin + kClusterTriangles, count);
-    for (int t = c.begin; t < c.end; ++t)
-      c.nodes.insert(c.nodes.end(), bases_[t].vertices.begin(), bases_[t].vertices.end());
-    std::sort(c.nodes.begin(), c.nodes.end());
-    c.nodes.erase(std::unique(c.nodes.begin(), c.nodes.end()), c.nodes.end());
-    clusters_.push_back(std::move(c));
-  }
+  for (int begin = 0; begin < count; begin += kClusterTriangles)
+    clusters_.emplace_back(mesh, reconstruction_, begin,
+                           std::min(begin + kClusterTriangles, count));
 }
 
 GalerkinAssembler::~GalerkinAssembler() = default;
@@ -169,18 +212,15 @@ void GalerkinAssembler::add_mass(const std::vector<RowTriangle>& triangles,
 }
 
 template <class T>
-void GalerkinAssembler::sum_dynamic(int tx, int ty, const LaneTable<T>& lanes,
-                                    Workspace<T>& work) const {
+void GalerkinAssembler::sum_dynamic(int tx, int ty, const LaneTable<T>& lanes, PairBatch& batch,
+                                    PairScratch<T>& scratch, const PairSums<T>& sums) const {
   const Material& m = discretisation_.material;
   const PairScales scales{m.density, m.kappa(), 1 / (m.shear_speed() * discretisation_.dt),
                           quadrature_.normal(tx), quadrature_.normal(ty)};
-  std::fill(work.sums.begin(), work.sums.end(), T(0));
-  PairBatch& batch = work.batch;
   batch.size = 0;
   const auto flush = [&] {
-    if (batch.size == 0) return;
     batch.pad();
-    accumulate_pair(lanes, scales, batch, work.scratch, work.sums.data());
+    accumulate_pair(lanes, scales, batch, scratch, sums);
     batch.size = 0;
   };
   quadrature_.for_each_point(tx, ty, KernelPart::dynamic_part, [&](const PairPoint& p) {
@@ -193,140 +233,158 @@ void GalerkinAssembler::sum_dynamic(int tx, int ty, const LaneTable<T>& lanes,
     }
     if (++batch.size == PairBatch::kCapacity) flush();
   });
-  flush();
+  if (batch.size > 0) flush();
+}
+
+/// The sums of a triangle of x with all triangles of a cluster.
+template <class T>
+void GalerkinAssembler::sum_cluster(int tx, const Cluster& cluster, const LaneTable<T>& lanes,
+                                    Workspace<T>& work) const {
+  const Material& m = discretisation_.material;
+  const std::size_t stride = lanes.padded_lanes, part = 9 * kShapes * stride;
+  // tractions of uniform strain e: 2 mu e n + lambda tr(e) n, where lambda kappa is finite
+  const Vector6 pressure = m.shear_modulus * m.poisson_ratio / (1 - m.poisson_ratio) *
+                           symmetric_entries(Mat3::Identity());
+  work.inertia.assign(cluster.shape_count() * part, T(0));
+  work.adjoint.assign(cluster.hats.size() * part, T(0));
+  work.strain.assign(18 * kShapes * stride, T(0));
+  work.static_h = Eigen::MatrixXd::Zero(18, 3 * cluster.shape_count());
+  work.static_g = Eigen::MatrixXd::Zero(18, static_cast<Eigen::Index>(3 * cluster.hats.size()));
+  for (int t = cluster.begin; t < cluster.end; ++t) {
+    const std::array<int, 6>& shapes = cluster.shapes[t - cluster.begin];
+    PairSums<T> sums;
+    for (int j = 0; j < kShapes; ++j) sums.inertia[j] = &work.inertia[shapes[j] * part];
+    for (int j = 0; j < 3; ++j) sums.adjoint[j] = &work.adjoint[shapes[j] * part];
+    work.uniform.assign(PairSums<T>::kUniform * kShapes * stride, T(0));
+    sums.uniform = work.uniform.data();
+    sum_dynamic(tx, t, lanes, work.batch, work.scratch, sums);
+    add_strain(sums.uniform, lanes.padded_lanes,
+               2 * m.shear_modulus * symmetric_products(quadrature_.normal(t)), pressure,
+               work.strain.data());
+    PairMatrix form = PairMatrix::Zero();
+    PairTractions adjoint = PairTractions::Zero();
+    add_static_pair(quadrature_, m.shear_modulus, m.kappa(), tx, t, form, adjoint);
+    for (int j = 0; j < kShapes; ++j)
+      work.static_h.template middleCols<3>(3 * shapes[j]) += form.middleCols<3>(3 * j);
+    for (int j = 0; j < 3; ++j)
+      work.static_g.template middleCols<3>(3 * shapes[j]) -= adjoint.middleCols<3>(3 * j);
+  }
+}
+
+/// Combines the sums by shapes of y to those by nodes of the cluster.
+template <class T>
+void GalerkinAssembler::combine_columns(const Cluster& cluster, std::size_t part,
+                                        Workspace<T>& work) const {
+  work.by_node.assign(cluster.nodes.size() * part, T(0));
+  work.static_by_node =
+      Eigen::MatrixXd::Zero(18, static_cast<Eigen::Index>(3 * cluster.nodes.size()));
+  const auto add = [&](std::size_t shape, int node, double factor) {
+    add_scaled(static_cast<T>(factor), &work.inertia[shape * part], &work.by_node[node * part],
+               part);
+    work.static_by_node.template middleCols<3>(3 * node) +=
+        factor * work.static_h.template middleCols<3>(static_cast<Eigen::Index>(3 * shape));
+  };
+  for (std::size_t i = 0; i < cluster.hats.size(); ++i) add(i, cluster.hats[i], 1);
+  for (std::size_t i = 0; i < cluster.bubbles.size(); ++i)
+    for (const auto& [node, rho] : cluster.bubbles[i]) add(cluster.hats.size() + i, node, rho);
 }
 
 template <class T>
 void GalerkinAssembler::assemble_block(const std::vector<RowTriangle>& triangles, int row_count,
                                        const Cluster& cluster, const LaneTable<T>& lanes,
                                        Block<T>& block) const {
-  const Material& m = discretisation_.material;
   const std::size_t stride = lanes.padded_lanes, columns = cluster.nodes.size();
+  const std::size_t part = 9 * kShapes * stride;
   block.inertia.assign(row_count * columns * 9 * stride, T(0));
   block.adjoint.assign(row_count * columns * 9 * stride, T(0));
   block.strain.assign(std::size_t(row_count) * 18 * stride, T(0));
   block.static_h = block.static_g =
       Eigen::MatrixXd::Zero(3 * row_count, static_cast<Eigen::Index>(3 * columns));
   Workspace<T> work;
-  work.sums.resize(kPairSums * stride);
-  // tractions of uniform strain e: 2 mu e n + lambda tr(e) n, where lambda kappa is finite
-  const Vector6 pressure = m.shear_modulus * m.poisson_ratio / (1 - m.poisson_ratio) *
-                           symmetric_entries(Mat3::Identity());
-  struct Column {
-    std::vector<int> slots;
-    std::vector<T> weights;
-    int corners[3];
-    Eigen::Matrix<double, 3, 6> tractions;
-  };
-  std::vector<Column> trial;
-  for (int t = cluster.begin; t < cluster.end; ++t) {
-    Column c;
-    for (std::size_t k = 0; k < bases_[t].vertices.size(); ++k) {
-      c.slots.push_back(slot_of(cluster.nodes, bases_[t].vertices[k]));
-      for (double w : bases_[t].weights[k]) c.weights.push_back(static_cast<T>(w));
-    }
-    for (int k = 0; k < 3; ++k) c.corners[k] = slot_of(cluster.nodes, mesh_.triangles[t][k]);
-    c.tractions = 2 * m.shear_modulus * symmetric_products(quadrature_.normal(t));
-    trial.push_back(std::move(c));
-  }
   for (const RowTriangle& r : triangles) {
-    std::vector<T> row_weights;
-    for (const auto& w : r.weights)
-      for (double v : w) row_weights.push_back(static_cast<T>(v));
-    work.strain.assign(18 * kShapes * stride, T(0));
-    for (int t = cluster.begin; t < cluster.end; ++t) {
-      const Column& column = trial[t - cluster.begin];
-      sum_dynamic(r.triangle, t, lanes, work);
-      add_pair(work.sums.data(), lanes.padded_lanes,
-               PairTarget<T>{static_cast<int>(r.rows.size()), static_cast<int>(column.slots.size()),
-                             row_weights.data(), column.weights.data(), r.rows.data(),
-                             column.slots.data(), column.corners, columns, block.inertia.data(),
-                             block.adjoint.data()});
-      add_pair_strain(work.sums.data(), lanes.padded_lanes, column.tractions, pressure,
-                      work.strain.data());
-      add_static(r, t, cluster, block.static_h, block.static_g);
+    sum_cluster(r.triangle, cluster, lanes, work);
+    combine_columns(cluster, part, work);
+    for (std::size_t k = 0; k < r.rows.size(); ++k) {
+      T weights[kShapes];
+      std::copy(r.weights[k].begin(), r.weights[k].end(), weights);
+      const std::size_t first = r.rows[k] * columns;
+      for (std::size_t j = 0; j < columns; ++j)
+        combine_shapes(weights, &work.by_node[j * part], 9, lanes.padded_lanes,
+                       &block.inertia[(first + j) * 9 * stride]);
+      for (std::size_t i = 0; i < cluster.hats.size(); ++i)
+        combine_shapes(weights, &work.adjoint[i * part], 9, lanes.padded_lanes,
+                       &block.adjoint[(first + cluster.hats[i]) * 9 * stride]);
+      combine_shapes(weights, work.strain.data(), 18, lanes.padded_lanes,
+                     &block.strain[r.rows[k] * 18 * stride]);
+      const Eigen::Index row = 3 * r.rows[k];
+      for (int a = 0; a < kShapes; ++a) {
+        const double w = r.weights[k][a];
+        if (w == 0) continue;
+        block.static_h.template middleRows<3>(row) += w * work.static_by_node.template middleRows<3>(3 * a);
+        for (std::size_t i = 0; i < cluster.hats.size(); ++i)
+          block.static_g.template block<3, 3>(row, 3 * cluster.hats[i]) +=
+              w * work.static_g.template block<3, 3>(3 * a, static_cast<Eigen::Index>(3 * i));
+      }
     }
-    for (std::size_t k = 0; k < r.rows.size(); ++k)
-      for (int a = 0; a < kShapes; ++a)
-        for (std::size_t e = 0; e < 18 * stride; ++e)
-          block.strain[r.rows[k] * 18 * stride + e] +=
-              row_weights[6 * k + a] * work.strain[a * 18 * stride + e];
   }
 }
 
-void GalerkinAssembler::add_static(const RowTriangle& r, int ty, const Cluster& cluster,
-                                   Eigen::MatrixXd& h, Eigen::MatrixXd& g) const {
-  PairMatrix form = PairMatrix::Zero();
-  PairTractions adjoint = PairTractions::Zero();
+/// What tractions on triangles have with one triangle of x, by load cases.
+template <class T>
+struct GalerkinAssembler::LoadPart {
+  Eigen::MatrixXd rest;      ///< 18 x cases
+  AlignedVector<T> dynamic;  ///< [case][axis][shape of x][padded lane]
+};
+
+template <class T>
+void GalerkinAssembler::sum_loads(int tx, const std::vector<PanelLoad>& loads,
+                                  const LaneTable<T>& lanes, LoadPart<T>& part) const {
   const Material& m = discretisation_.material;
-  add_static_pair(quadrature_, m.shear_modulus, m.kappa(), r.triangle, ty, form, adjoint);
-  const TriangleBasis& basis = bases_[ty];
-  for (std::size_t k = 0; k < r.rows.size(); ++k) {
-    Eigen::Matrix<double, 3, 18> left = Eigen::Matrix<double, 3, 18>::Zero();
-    Eigen::Matrix<double, 3, 9> tractions = Eigen::Matrix<double, 3, 9>::Zero();
-    for (int a = 0; a < kShapes; ++a) {
-      left += r.weights[k][a] * form.middleRows<3>(3 * a);
-      tractions += r.weights[k][a] * adjoint.middleRows<3>(3 * a);
-    }
-    const Eigen::Index row = 3 * r.rows[k];
-    for (std::size_t j = 0; j < basis.vertices.size(); ++j) {
-      Mat3 sum = Mat3::Zero();
-      for (int b = 0; b < kShapes; ++b)
-        if (basis.weights[j][b] != 0) sum += basis.weights[j][b] * left.middleCols<3>(3 * b);
-      h.block<3, 3>(row, 3 * slot_of(cluster.nodes, basis.vertices[j])) += sum;
-    }
+  const Eigen::Index cases = loads.at(0).traction.cols();
+  const std::size_t shapes = kShapes * static_cast<std::size_t>(lanes.padded_lanes);
+  Workspace<T> work;
+  part.rest = Eigen::MatrixXd::Zero(18, cases);
+  part.dynamic.assign(3 * cases * shapes, T(0));
+  for (const PanelLoad& load : loads) {
+    check_interruption();
+    Eigen::Matrix<double, 9, Eigen::Dynamic> corners(9, cases);
     for (int b = 0; b < 3; ++b)
-      g.block<3, 3>(row, 3 * slot_of(cluster.nodes, mesh_.triangles[ty][b])) -=
-          tractions.middleCols<3>(3 * b);
+      corners.middleRows<3>(3 * b) = (load.corner.value_or(b) == b ? 1.0 : 0.0) * load.traction;
+    PairMatrix unused = PairMatrix::Zero();
+    PairTractions adjoint = PairTractions::Zero();
+    add_static_pair(quadrature_, m.shear_modulus, m.kappa(), tx, load.triangle, unused, adjoint);
+    part.rest -= adjoint * corners;
+    if (load.triangle == tx) part.rest += 0.5 * mass_matrix(quadrature_.area(tx)) * corners;
+    work.adjoint.assign(27 * shapes, T(0));
+    work.uniform.assign(PairSums<T>::kUniform * shapes, T(0));
+    PairSums<T> sums{};
+    for (int b = 0; b < 3; ++b) sums.adjoint[b] = &work.adjoint[9 * b * shapes];
+    sums.uniform = work.uniform.data();
+    sum_dynamic(tx, load.triangle, lanes, work.batch, work.scratch, sums);
+    const T* kernel = load.corner ? sums.adjoint[*load.corner] : sums.uniform;
+    for (Eigen::Index c = 0; c < cases; ++c)
+      for (int e = 0; e < 9; ++e)
+        add_scaled(static_cast<T>(load.traction(e % 3, c)), kernel + e * shapes,
+                   &part.dynamic[(3 * c + e / 3) * shapes], shapes);
   }
 }
 
 std::vector<Eigen::MatrixXd> GalerkinAssembler::assemble_loads(
     const std::vector<PanelLoad>& loads) const {
-  const LaneTable<double>& lanes = table_.lanes();
+  constexpr double kSingle = 1e-6;  // quadrature tolerances that single precision is enough for
+  return discretisation_.quadrature_tolerance >= kSingle ? assemble_loads(loads, narrow_table_)
+                                                         : assemble_loads(loads, table_.lanes());
+}
+
+template <class T>
+std::vector<Eigen::MatrixXd> GalerkinAssembler::assemble_loads(const std::vector<PanelLoad>& loads,
+                                                               const LaneTable<T>& lanes) const {
   const int count = layout().count();
+  const std::size_t stride = lanes.padded_lanes;
   const Eigen::Index cases = loads.at(0).traction.cols();
-  const Material& m = discretisation_.material;
-  const auto corners_of = [](const PanelLoad& load) {
-    Eigen::Matrix<double, 9, Eigen::Dynamic> p(9, load.traction.cols());
-    for (int b = 0; b < 3; ++b)
-      p.middleRows<3>(3 * b) = (load.corner.value_or(b) == b ? 1.0 : 0.0) * load.traction;
-    return p;
-  };
-  /// By shapes of a triangle: static part, and lanes of the dynamic one.
-  struct Part {
-    Eigen::MatrixXd rest;                  // 18 x cases
-    std::vector<Eigen::MatrixXd> dynamic;  // by lane
-  };
-  std::vector<Part> parts(bases_.size());
-  parallel_for(bases_.size(), [&](std::size_t i) {
-    const int tx = static_cast<int>(i);
-    Workspace<double> work;
-    work.sums.resize(kPairSums * static_cast<std::size_t>(lanes.padded_lanes));
-    Part& part = parts[i];
-    part.rest = Eigen::MatrixXd::Zero(18, cases);
-    part.dynamic.assign(count, Eigen::MatrixXd::Zero(18, cases));
-    PairTractions sums;
-    for (const PanelLoad& load : loads) {
-      check_interruption();
-      const auto p = corners_of(load);
-      PairMatrix unused = PairMatrix::Zero();
-      PairTractions adjoint = PairTractions::Zero();
-      add_static_pair(quadrature_, m.shear_modulus, m.kappa(), tx, load.triangle, unused, adjoint);
-      part.rest -= adjoint * p;
-      if (load.triangle == tx) part.rest += 0.5 * mass_matrix(quadrature_.area(tx)) * p;
-      sum_dynamic(tx, load.triangle, lanes, work);
-      for (int lane = 0; lane < count; ++lane) {
-        for (int e = 0; e < 9; ++e)
-          for (int b = 0; b < 3; ++b)
-            for (int a = 0; a < kShapes; ++a)
-              sums(3 * a + e / 3, 3 * b + e % 3) =
-                  work.sums[static_cast<std::size_t>(adjoint_sum(e, b, a)) * lanes.padded_lanes +
-                            lane];
-        part.dynamic[lane].noalias() += sums * p;
-      }
-    }
-  });
+  std::vector<LoadPart<T>> parts(bases_.size());
+  parallel_for(bases_.size(),
+               [&](std::size_t t) { sum_loads(static_cast<int>(t), loads, lanes, parts[t]); });
   const auto n = static_cast<Eigen::Index>(3 * mesh_.vertices.size());
   Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(n, cases);
   std::vector<Eigen::MatrixXd> out(count, Eigen::MatrixXd::Zero(n, cases));
@@ -336,9 +394,13 @@ std::vector<Eigen::MatrixXd> GalerkinAssembler::assemble_loads(
         const double w = bases_[t].weights[k][a];
         const Eigen::Index row = 3 * bases_[t].vertices[k];
         if (w == 0) continue;
-        rest.middleRows<3>(row) += w * parts[t].rest.middleRows<3>(3 * a);
-        for (int lane = 0; lane < count; ++lane)
-          out[lane].middleRows<3>(row) += w * parts[t].dynamic[lane].middleRows<3>(3 * a);
+        rest.middleRows<3>(row) += w * parts[t].rest.template middleRows<3>(3 * a);
+        for (Eigen::Index c = 0; c < cases; ++c)
+          for (int i = 0; i < 3; ++i) {
+            const T* from = &parts[t].dynamic[((3 * c + i) * kShapes + a) * stride];
+            for (int lane = 0; lane < count; ++lane)
+              out[lane](row + i, c) += w * static_cast<double>(from[lane]);
+          }
       }
   const GalerkinCombination combination(discretisation_, layout());
   std::vector<double> in(count), lane_values(count);

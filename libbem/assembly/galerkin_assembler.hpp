@@ -58,6 +58,8 @@ class GalerkinAssembler {
   struct Block;
   template <class T>
   struct Workspace;
+  template <class T>
+  struct LoadPart;
 
   template <class T>
   void assemble_rows(int first, int last, const LaneTable<T>& lanes, GalerkinRows<T>& rows) const;
@@ -65,9 +67,19 @@ class GalerkinAssembler {
   void assemble_block(const std::vector<RowTriangle>& triangles, int row_count,
                       const Cluster& cluster, const LaneTable<T>& lanes, Block<T>& block) const;
   template <class T>
-  void sum_dynamic(int tx, int ty, const LaneTable<T>& lanes, Workspace<T>& work) const;
-  void add_static(const RowTriangle& rows, int ty, const Cluster& cluster, Eigen::MatrixXd& h,
-                  Eigen::MatrixXd& g) const;
+  void sum_dynamic(int tx, int ty, const LaneTable<T>& lanes, PairBatch& batch,
+                   PairScratch<T>& scratch, const PairSums<T>& sums) const;
+  template <class T>
+  void sum_cluster(int tx, const Cluster& cluster, const LaneTable<T>& lanes,
+                   Workspace<T>& work) const;
+  template <class T>
+  void combine_columns(const Cluster& cluster, std::size_t part, Workspace<T>& work) const;
+  template <class T>
+  void sum_loads(int tx, const std::vector<PanelLoad>& loads, const LaneTable<T>& lanes,
+                 LoadPart<T>& part) const;
+  template <class T>
+  std::vector<Eigen::MatrixXd> assemble_loads(const std::vector<PanelLoad>& loads,
+                                              const LaneTable<T>& lanes) const;
   void add_mass(const std::vector<RowTriangle>& triangles, Eigen::MatrixXd& g) const;
 
   const TriangleMesh& mesh_;

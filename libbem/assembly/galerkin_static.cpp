@@ -1,7 +1,7 @@
 #include "assembly/galerkin_static.hpp"
 
 #include "assembly/edge_reconstruction.hpp"
-#include "kernels/hypersingular_tensors.hpp"
+#include "assembly/static_sums.hpp"
 #include "quadrature/triangle_rules.hpp"
 
 #include <array>
@@ -12,16 +12,49 @@ namespace {
 constexpr int kShapes = 6;
 
 /// What the static hypersingular form of a pair needs: integrals of 1/r and h h^T/r times linear
-/// shape functions of both triangles.
+/// shape functions of both triangles, 3 by 3; index 3 stands for the sum over all three.
 struct Moments {
-  double scalar[3][3] = {};
-  Mat3 tensor[3][3];
+  double scalar[4][4];
+  Mat3 tensor[4][4];
 
-  Moments() {
-    for (auto& row : tensor)
-      for (Mat3& m : row) m.setZero();
+  explicit Moments(const StaticSums& sums) {
+    const auto& v = sums.values;
+    constexpr int t = StaticSums::kTensor;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) {
+        const int i = 3 * a + b;
+        scalar[a][b] = v[StaticSums::kScalar][i];
+        tensor[a][b] << v[t][i], v[t + 1][i], v[t + 2][i], v[t + 1][i], v[t + 3][i], v[t + 4][i],
+            v[t + 2][i], v[t + 4][i], v[t + 5][i];
+      }
+    for (int a = 0; a < 3; ++a) {
+      scalar[a][3] = scalar[a][0] + scalar[a][1] + scalar[a][2];
+      tensor[a][3] = tensor[a][0] + tensor[a][1] + tensor[a][2];
+    }
+    for (int b = 0; b < 4; ++b) {
+      scalar[3][b] = scalar[0][b] + scalar[1][b] + scalar[2][b];
+      tensor[3][b] = tensor[0][b] + tensor[1][b] + tensor[2][b];
+    }
   }
 };
+
+/// The static sums over the points of a pair.
+StaticSums static_sums(const PairQuadrature& quadrature, double kappa, int tx, int ty) {
+  const StaticTraction traction(kappa);
+  StaticSums sums;
+  StaticBatch batch;
+  const auto flush = [&] {
+    accumulate_static(quadrature.normal(tx), traction, batch, sums);
+    batch.size = 0;
+  };
+  quadrature.for_each_point(tx, ty, KernelPart::static_part, [&](const PairPoint& p) {
+    batch.add(quadrature.position(ty, p.y) - quadrature.position(tx, p.x),
+              quadratic_shapes(p.x).data(), p.y, p.weight);
+    if (batch.size == StaticBatch::kCapacity) flush();
+  });
+  if (batch.size > 0) flush();
+  return sums;
+}
 
 /// The curls of the linear shape functions of a triangle, constant on it [1/m].
 std::array<Vec3, 3> linear_curls(const TriangleMesh& mesh, int triangle, double area) {
@@ -36,65 +69,40 @@ std::array<Vec3, 3> linear_curls(const TriangleMesh& mesh, int triangle, double 
 
 void add_static_pair(const PairQuadrature& quadrature, double shear_modulus, double kappa, int tx,
                      int ty, PairMatrix& h, PairTractions& adjoint) {
-  const StaticTraction rest(kappa);
-  Moments moments;
-  quadrature.for_each_point(tx, ty, KernelPart::static_part, [&](const PairPoint& p) {
-    const SurfacePair g = surface_pair(quadrature.position(tx, p.x), quadrature.normal(tx),
-                                       quadrature.position(ty, p.y), quadrature.normal(ty));
-    const Mat3 k = p.weight * static_adjoint_kernel(g, rest);
-    const auto shape = quadratic_shapes(p.x);
-    for (int j = 0; j < 3; ++j) {
-      const Mat3 kj = p.y[j] * k;
-      for (int i = 0; i < kShapes; ++i) adjoint.block<3, 3>(3 * i, 3 * j) += shape[i] * kj;
-    }
-    const double w = p.weight / g.r;
-    const Mat3 hh = w * g.h * g.h.transpose();
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) {
-        moments.scalar[a][b] += p.x[a] * p.y[b] * w;
-        moments.tensor[a][b] += (p.x[a] * p.y[b]) * hh;
-      }
-  });
+  const StaticSums sums = static_sums(quadrature, kappa, tx, ty);
+  for (int a = 0; a < kShapes; ++a)
+    for (int b = 0; b < 3; ++b)
+      for (int e = 0; e < 9; ++e)
+        adjoint(3 * a + e / 3, 3 * b + e % 3) += sums.values[StaticSums::kAdjoint + e][3 * a + b];
 
-  // shape i has the curl c_i for i < 3, and 4 (L_i c_j + L_j c_i) with j = i + 1 beyond
+  // the form is bilinear in the curls of both, scalar in these moments
+  const Moments moments(sums);
   const auto cx = linear_curls(quadrature.mesh(), tx, quadrature.area(tx));
   const auto cy = linear_curls(quadrature.mesh(), ty, quadrature.area(ty));
   const double scale = shear_modulus / (4 * kPi);
-  const auto form = [&](const Vec3& a, const Vec3& b, double scalar, const Mat3& tensor) {
-    Mat3 m = (2 * (1 - kappa) * a.dot(b)) * tensor;
-    m.diagonal().array() += 2 * (1 - kappa) * a.dot(b) * scalar;
-    m -= scalar * (a * b.transpose() + 2 * (1 - 2 * kappa) * b * a.transpose());
-    return Mat3(scale * m);
-  };
-  Moments by_x = moments;  // [a][0]: summed over the corners of y
-  double scalar = 0;
-  Mat3 tensor = Mat3::Zero();
-  for (int a = 0; a < 3; ++a) {
-    for (int b = 1; b < 3; ++b) {
-      by_x.scalar[a][0] += moments.scalar[a][b];
-      by_x.tensor[a][0] += moments.tensor[a][b];
+  double of_both[3][3];
+  Mat3 of_scalar[3][3];
+  for (int p = 0; p < 3; ++p)
+    for (int q = 0; q < 3; ++q) {
+      of_both[p][q] = scale * 2 * (1 - kappa) * cx[p].dot(cy[q]);
+      of_scalar[p][q] =
+          of_both[p][q] * Mat3::Identity() -
+          scale * (cx[p] * cy[q].transpose() + 2 * (1 - 2 * kappa) * cy[q] * cx[p].transpose());
     }
-    scalar += by_x.scalar[a][0];
-    tensor += by_x.tensor[a][0];
-  }
+  // shape i has the curl c_i for i < 3, and 4 (L_i c_j + L_j c_i) with j = i + 1 beyond
+  const auto form = [&](int p, int q, int a, int b) -> Mat3 {
+    return of_both[p][q] * moments.tensor[a][b] + moments.scalar[a][b] * of_scalar[p][q];
+  };
+  constexpr int kAll = 3;
   for (int i = 0; i < 3; ++i) {
     const int in = (i + 1) % 3;
     for (int j = 0; j < 3; ++j) {
       const int jn = (j + 1) % 3;
-      h.block<3, 3>(3 * i, 3 * j) += form(cx[i], cy[j], scalar, tensor);
-      // bubbles of x with linear functions of y, and the other way round
-      h.block<3, 3>(3 * (3 + i), 3 * j) +=
-          4 * (form(cx[in], cy[j], by_x.scalar[i][0], by_x.tensor[i][0]) +
-               form(cx[i], cy[j], by_x.scalar[in][0], by_x.tensor[in][0]));
-      for (int a = 0; a < 3; ++a)
-        h.block<3, 3>(3 * i, 3 * (3 + j)) +=
-            4 * (form(cx[i], cy[jn], moments.scalar[a][j], moments.tensor[a][j]) +
-                 form(cx[i], cy[j], moments.scalar[a][jn], moments.tensor[a][jn]));
+      h.block<3, 3>(3 * i, 3 * j) += form(i, j, kAll, kAll);
+      h.block<3, 3>(3 * (3 + i), 3 * j) += 4 * (form(in, j, i, kAll) + form(i, j, in, kAll));
+      h.block<3, 3>(3 * i, 3 * (3 + j)) += 4 * (form(i, jn, kAll, j) + form(i, j, kAll, jn));
       h.block<3, 3>(3 * (3 + i), 3 * (3 + j)) +=
-          16 * (form(cx[in], cy[jn], moments.scalar[i][j], moments.tensor[i][j]) +
-                form(cx[in], cy[j], moments.scalar[i][jn], moments.tensor[i][jn]) +
-                form(cx[i], cy[jn], moments.scalar[in][j], moments.tensor[in][j]) +
-                form(cx[i], cy[j], moments.scalar[in][jn], moments.tensor[in][jn]));
+          16 * (form(in, jn, i, j) + form(in, j, i, jn) + form(i, jn, in, j) + form(i, j, in, jn));
     }
   }
 }

@@ -58,6 +58,19 @@ struct Cell {
   }
 };
 
+std::vector<PairPoint> product_rule(const TriangleRule& x, const TriangleRule& y) {
+  std::vector<PairPoint> out;
+  for (int i = 0; i < x.size; ++i)
+    for (int j = 0; j < y.size; ++j) {
+      PairPoint p;
+      p.weight = x.points[i].weight * y.points[j].weight;
+      std::copy_n(x.points[i].barycentric, 3, p.x);
+      std::copy_n(y.points[j].barycentric, 3, p.y);
+      out.push_back(p);
+    }
+  return out;
+}
+
 }  // namespace
 
 double triangle_distance(const Vec3* a, const Vec3* b) {
@@ -79,7 +92,14 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
       static_order_(static_order(tolerance)),
       dynamic_order_(dynamic_order(tolerance)) {
   for (const Triangle& t : mesh.triangles) {
-    Panel p{triangle_normal(mesh, t), triangle_area(mesh, t), longest_edge(mesh, t), 0};
+    const Vec3 corners[3] = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    Panel p{triangle_normal(mesh, t),
+            (corners[0] + corners[1] + corners[2]) / 3,
+            triangle_area(mesh, t),
+            longest_edge(mesh, t),
+            0,
+            0};
+    for (const Vec3& x : corners) p.radius = std::max(p.radius, (x - p.centre).norm());
     for (int k = 0; k < 3; ++k) {
       const Vec3 u = (mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]]).normalized();
       const Vec3 v = (mesh.vertices[t[(k + 2) % 3]] - mesh.vertices[t[k]]).normalized();
@@ -87,6 +107,9 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
     }
     panels_.push_back(p);
   }
+  for (int x = 0; x < kTriangleRuleCount; ++x)
+    for (int y = 0; y < kTriangleRuleCount; ++y)
+      product_rules_[x][y] = product_rule(triangle_rules()[x], triangle_rules()[y]);
   const int radial =
       kDynamicRadial + std::min(kMostForWaves, static_cast<int>(0.4 * longest_wave()));
   for (const Adjacency adjacency : {Adjacency::vertex, Adjacency::edge, Adjacency::identical})
@@ -140,6 +163,30 @@ const std::vector<PairPoint>& PairQuadrature::touching_points(int tx, int ty, Ad
   return rules.at({adjacency, touching_order(tx, ty, adjacency, part)});
 }
 
+/// The points of a pair whose triangles need not be split; null if they do. Far from each other a
+/// lower bound of the distance is enough to know it.
+const std::vector<PairPoint>* PairQuadrature::unsplit_rule(int tx, int ty, KernelPart part) const {
+  constexpr double kFar = 3;  // of the longest edge
+  const Panel &x = panels_[tx], &y = panels_[ty];
+  double distance = (x.centre - y.centre).norm() - x.radius - y.radius;
+  if (distance < kFar * std::max(x.longest_edge, y.longest_edge)) {
+    Vec3 a[3], b[3];
+    for (int k = 0; k < 3; ++k) {
+      a[k] = mesh_.vertices[mesh_.triangles[tx][k]];
+      b[k] = mesh_.vertices[mesh_.triangles[ty][k]];
+    }
+    distance = triangle_distance(a, b);
+  }
+  const bool is_static = part == KernelPart::static_part;
+  const RuleChoice& choice = is_static ? static_choice_ : dynamic_choice_;
+  const double wave_number = is_static ? 0 : wave_number_;
+  const auto rule_of = [&](const Panel& p) {
+    return choice.choose(distance / p.longest_edge, wave_number * p.longest_edge);
+  };
+  const int rule_x = rule_of(x), rule_y = rule_of(y);
+  return rule_x < 0 || rule_y < 0 ? nullptr : &product_rules_[rule_x][rule_y];
+}
+
 void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
                                    std::vector<PairPoint>& out) const {
   const RuleChoice& choice = part == KernelPart::static_part ? static_choice_ : dynamic_choice_;
@@ -170,20 +217,18 @@ void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
                          task.depth + 1});
       continue;
     }
-    const TriangleRule &x = triangle_rules()[rule_x], &y = triangle_rules()[rule_y];
-    for (int i = 0; i < x.size; ++i)
-      for (int j = 0; j < y.size; ++j) {
-        PairPoint p;
-        p.weight = task.x.part * task.y.part * x.points[i].weight * y.points[j].weight;
-        for (int a = 0; a < 3; ++a) {
-          p.x[a] = p.y[a] = 0;
-          for (int k = 0; k < 3; ++k) {
-            p.x[a] += x.points[i].barycentric[k] * task.x.corner[k][a];
-            p.y[a] += y.points[j].barycentric[k] * task.y.corner[k][a];
-          }
+    for (const PairPoint& own : product_rules_[rule_x][rule_y]) {
+      PairPoint p;
+      p.weight = task.x.part * task.y.part * own.weight;
+      for (int a = 0; a < 3; ++a) {
+        p.x[a] = p.y[a] = 0;
+        for (int k = 0; k < 3; ++k) {
+          p.x[a] += own.x[k] * task.x.corner[k][a];
+          p.y[a] += own.y[k] * task.y.corner[k][a];
         }
-        out.push_back(p);
       }
+      out.push_back(p);
+    }
   }
 }
 

@@ -34,6 +34,10 @@ class PairQuadrature {
     };
     const Pairing pairing = pair(tx, ty);
     if (pairing.adjacency == Adjacency::none) {
+      if (const std::vector<PairPoint>* rule = unsplit_rule(tx, ty, part)) {
+        for (PairPoint p : *rule) give(p);
+        return;
+      }
       std::vector<PairPoint> points;
       add_separated(tx, ty, part, points);
       for (PairPoint& p : points) give(p);
@@ -60,8 +64,9 @@ class PairQuadrature {
 
  private:
   struct Panel {
-    Vec3 normal;
+    Vec3 normal, centre;
     double area, longest_edge, widest_angle;
+    double radius;  ///< of the corners about the centre
   };
   /// How two triangles touch, and their corners such that those that they share come first.
   struct Pairing {
@@ -71,6 +76,7 @@ class PairQuadrature {
   Pairing pair(int tx, int ty) const;
   const std::vector<PairPoint>& touching_points(int tx, int ty, Adjacency adjacency,
                                                 KernelPart part) const;
+  const std::vector<PairPoint>* unsplit_rule(int tx, int ty, KernelPart part) const;
   double longest_wave() const;
   int touching_order(int tx, int ty, Adjacency adjacency, KernelPart part) const;
   void add_separated(int tx, int ty, KernelPart part, std::vector<PairPoint>& out) const;
@@ -82,6 +88,8 @@ class PairQuadrature {
   std::vector<Panel> panels_;
   using Rules = std::map<std::pair<Adjacency, int>, std::vector<PairPoint>>;
   Rules static_rules_, dynamic_rules_;
+  /// Products of triangle rules, [rule of x][rule of y].
+  std::vector<PairPoint> product_rules_[kTriangleRuleCount][kTriangleRuleCount];
 };
 
 /// Distance of two triangles that do not touch [m].

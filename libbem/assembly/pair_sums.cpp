@@ -102,7 +102,7 @@ void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const
 }
 
 /// The kernels at all points for a vector of lanes: values[tensor entry][point].
-template <class D, class T = hn::TFromD<D>>
+template <bool with_inertia, class D, class T = hn::TFromD<D>>
 HWY_INLINE void EvaluateTensors(D d, const LaneTable<T>& table, std::size_t lane, int size,
                                 PairScratch<T>& scratch) {
   constexpr int kNodes = LaneTable<T>::kNodes;
@@ -125,12 +125,14 @@ HWY_INLINE void EvaluateTensors(D d, const LaneTable<T>& table, std::size_t lane
     T* HWY_RESTRICT out = scratch.values + q * hn::Lanes(d);
 #pragma GCC unroll 9
     for (int e = 0; e < 9; ++e) {
-      V z = hn::Mul(at(kOfAlpha + e), f[kAlpha]);
-      z = hn::MulAdd(at(kOfBeta + e), f[kBeta], z);
-      z = hn::MulAdd(at(kOfGamma + e), f[kGamma], z);
-      z = hn::MulAdd(at(kOfDelta + e), f[kDelta], z);
-      z = hn::MulAdd(at(kOfEpsilon + e), f[kEpsilon], z);
-      hn::Store(z, d, out + e * step);
+      if constexpr (with_inertia) {
+        V z = hn::Mul(at(kOfAlpha + e), f[kAlpha]);
+        z = hn::MulAdd(at(kOfBeta + e), f[kBeta], z);
+        z = hn::MulAdd(at(kOfGamma + e), f[kGamma], z);
+        z = hn::MulAdd(at(kOfDelta + e), f[kDelta], z);
+        z = hn::MulAdd(at(kOfEpsilon + e), f[kEpsilon], z);
+        hn::Store(z, d, out + e * step);
+      }
       V j = hn::Mul(at(kOfP + e), f[kDynamicP]);
       j = hn::MulAdd(at(kOfQ + e), f[kDynamicQ], j);
       j = hn::MulAdd(at(kOfS + e), f[kDynamicS], j);
@@ -141,91 +143,113 @@ HWY_INLINE void EvaluateTensors(D d, const LaneTable<T>& table, std::size_t lane
   }
 }
 
-template <class T>
-void AccumulatePair(const LaneTable<T>& table, const PairScales& scales, const PairBatch& batch,
-                    PairScratch<T>& scratch, T* HWY_RESTRICT sums) {
-  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
-  const std::size_t stride = table.padded_lanes;
-  const std::size_t step = PairBatch::kCapacity * hn::Lanes(d);
-  PairCoefficients(table, scales, batch, scratch);
-  for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
-    EvaluateTensors(d, table, lane, batch.size, scratch);
-    const auto rows = [&](auto count, const auto* weight, int tensor, int sum) {
-      AccumulateRows<decltype(count)::value>(d, weight, batch.size, scratch.values + tensor * step,
-                                             sums + sum * stride + lane, stride);
-    };
-    using Twelve = std::integral_constant<int, 12>;
-    using Nine = std::integral_constant<int, 9>;
-    using Six = std::integral_constant<int, 6>;
-    for (int e = 0; e < 9; ++e) {
-      for (int first = 0; first < 36; first += 12)
-        rows(Twelve(), scratch.weight + first, e, inertia_sum(e, 0, 0) + first);
-      for (int first = 0; first < 18; first += 9)
-        rows(Nine(), scratch.weight + first, 9 + e, adjoint_sum(e, 0, 0) + first);
+/// a[i] += weight_a[i][q] values[q] and b[i] += weight_b[i][q] values[q] for the six shapes of x.
+template <class D, int row_size, class T = hn::TFromD<D>>
+HWY_INLINE void AccumulateTwice(D d, const T (*weight_a)[row_size], const T (*weight_b)[row_size],
+                                int size, const T* HWY_RESTRICT values, T* a, T* b,
+                                std::size_t stride) {
+  using V = hn::Vec<D>;
+  V sum_a[6], sum_b[6];
+#pragma GCC unroll 6
+  for (int i = 0; i < 6; ++i) {
+    sum_a[i] = hn::Load(d, a + i * stride);
+    sum_b[i] = hn::Load(d, b + i * stride);
+  }
+  for (int q = 0; q < size; ++q) {
+    const V value = hn::Load(d, values + q * hn::Lanes(d));
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) {
+      sum_a[i] = hn::MulAdd(hn::Set(d, weight_a[i][q]), value, sum_a[i]);
+      sum_b[i] = hn::MulAdd(hn::Set(d, weight_b[i][q]), value, sum_b[i]);
     }
-    for (int e = 0; e < 3; ++e) rows(Six(), scratch.x_weight, 18 + e, kSumPressure + 6 * e);
+  }
+#pragma GCC unroll 6
+  for (int i = 0; i < 6; ++i) {
+    hn::Store(sum_a[i], d, a + i * stride);
+    hn::Store(sum_b[i], d, b + i * stride);
+  }
+}
+
+template <bool with_inertia, class T>
+void AccumulateLanes(const LaneTable<T>& table, const PairBatch& batch, PairScratch<T>& scratch,
+                     const PairSums<T>& sums) {
+  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
+  const std::size_t stride = table.padded_lanes, entry = 6 * stride;
+  const std::size_t step = PairBatch::kCapacity * hn::Lanes(d);
+  for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
+    EvaluateTensors<with_inertia>(d, table, lane, batch.size, scratch);
+    const auto twice = [&](const auto* weight_a, const auto* weight_b, int tensor, T* a, T* b) {
+      AccumulateTwice(d, weight_a, weight_b, batch.size, scratch.values + tensor * step, a + lane,
+                      b + lane, stride);
+    };
+    for (int e = 0; e < 9; ++e) {
+      if constexpr (with_inertia)
+        for (int y = 0; y < 6; y += 2)
+          twice(scratch.weight + 6 * y, scratch.weight + 6 * (y + 1), e,
+                sums.inertia[y] + e * entry, sums.inertia[y + 1] + e * entry);
+      twice(scratch.weight, scratch.weight + 6, 9 + e, sums.adjoint[0] + e * entry,
+            sums.adjoint[1] + e * entry);
+      twice(scratch.weight + 12, scratch.x_weight, 9 + e, sums.adjoint[2] + e * entry,
+            sums.uniform + e * entry);
+    }
+    for (int e = 0; e < 3; ++e)
+      AccumulateRows<6>(d, scratch.x_weight, batch.size, scratch.values + (18 + e) * step,
+                        sums.uniform + (9 + e) * entry + lane, stride);
   }
 }
 
 template <class T>
-void AddPair(const T* HWY_RESTRICT sums, int padded_lanes, const PairTarget<T>& target) {
+void AccumulatePair(const LaneTable<T>& table, const PairScales& scales, const PairBatch& batch,
+                    PairScratch<T>& scratch, const PairSums<T>& sums) {
+  PairCoefficients(table, scales, batch, scratch);
+  if (sums.inertia[0])
+    AccumulateLanes<true>(table, batch, scratch, sums);
+  else
+    AccumulateLanes<false>(table, batch, scratch, sums);
+}
+
+template <class T>
+void AddScaled(T factor, const T* HWY_RESTRICT from, T* HWY_RESTRICT to, std::size_t size) {
   const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
-  using V = hn::Vec<decltype(d)>;
+  const auto f = hn::Set(d, factor);
+  for (std::size_t i = 0; i < size; i += hn::Lanes(d))
+    hn::Store(hn::MulAdd(f, hn::Load(d, from + i), hn::Load(d, to + i)), d, to + i);
+}
+
+template <class T>
+void CombineShapes(const T* HWY_RESTRICT weights, const T* HWY_RESTRICT from, int entries,
+                   int padded_lanes, T* HWY_RESTRICT to) {
+  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
   const std::size_t stride = padded_lanes;
-  const auto add = [&](T* HWY_RESTRICT to, V value) {
-    hn::Store(hn::Add(hn::Load(d, to), value), d, to);
-  };
-  for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d))
-    for (int row = 0; row < target.rows; ++row) {
-      const T* w = target.row_weights + 6 * row;
-      const std::size_t first = target.row_slots[row] * target.block_columns;
-      const auto at = [&](T* block, int slot, int e) {
-        return block + ((first + slot) * 9 + e) * stride + lane;
-      };
-      // the shapes of x that the row has
-      const auto combined = [&](int sum) {
-        V total = hn::Mul(hn::Set(d, w[0]), hn::Load(d, sums + sum * stride + lane));
-#pragma GCC unroll 5
-        for (int a = 1; a < 6; ++a)
-          total =
-              hn::MulAdd(hn::Set(d, w[a]), hn::Load(d, sums + (sum + a) * stride + lane), total);
-        return total;
-      };
-      for (int e = 0; e < 9; ++e) {
-        V part[6];
-#pragma GCC unroll 6
-        for (int b = 0; b < 6; ++b) part[b] = combined(inertia_sum(e, b, 0));
-        for (int column = 0; column < target.columns; ++column) {
-          const T* v = target.column_weights + 6 * column;
-          V total = hn::Mul(hn::Set(d, v[0]), part[0]);
-#pragma GCC unroll 5
-          for (int b = 1; b < 6; ++b) total = hn::MulAdd(hn::Set(d, v[b]), part[b], total);
-          add(at(target.inertia, target.column_slots[column], e), total);
-        }
-        for (int b = 0; b < 3; ++b)
-          add(at(target.adjoint, target.corner_slots[b], e), combined(adjoint_sum(e, b, 0)));
-      }
+  int used[6], count = 0;
+  for (int a = 0; a < 6; ++a)
+    if (weights[a] != 0) used[count++] = a;
+  for (int e = 0; e < entries; ++e)
+    for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
+      const T* HWY_RESTRICT source = from + 6 * e * stride + lane;
+      T* HWY_RESTRICT target = to + e * stride + lane;
+      auto total = hn::Load(d, target);
+      for (int k = 0; k < count; ++k)
+        total =
+            hn::MulAdd(hn::Set(d, weights[used[k]]), hn::Load(d, source + used[k] * stride), total);
+      hn::Store(total, d, target);
     }
 }
 
 template <class T>
-void AddPairStrain(const T* HWY_RESTRICT sums, int padded_lanes,
-                   const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-                   T* HWY_RESTRICT out) {
+void AddStrain(const T* HWY_RESTRICT uniform, int padded_lanes,
+               const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+               T* HWY_RESTRICT out) {
   const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
   using V = hn::Vec<decltype(d)>;
   const std::size_t stride = padded_lanes;
   for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
-    const auto sum = [&](int row) { return hn::Load(d, sums + row * stride + lane); };
+    const auto sum = [&](int entry, int a) {
+      return hn::Load(d, uniform + (6 * entry + a) * stride + lane);
+    };
     for (int a = 0; a < 6; ++a)
       for (int i = 0; i < 3; ++i) {
-        V j[3];
-        for (int l = 0; l < 3; ++l) {
-          const int e = 3 * i + l;
-          j[l] = hn::Add(sum(adjoint_sum(e, 0, a)),
-                         hn::Add(sum(adjoint_sum(e, 1, a)), sum(adjoint_sum(e, 2, a))));
-        }
-        const V p = sum(kSumPressure + 6 * i + a);
+        const V j[3] = {sum(3 * i, a), sum(3 * i + 1, a), sum(3 * i + 2, a)}, p = sum(9 + i, a);
         for (int c = 0; c < 6; ++c) {
           T* HWY_RESTRICT to = out + ((a * 3 + i) * 6 + c) * stride + lane;
           V total = hn::MulAdd(hn::Set(d, static_cast<T>(pressure[c])), p, hn::Load(d, to));
@@ -237,34 +261,39 @@ void AddPairStrain(const T* HWY_RESTRICT sums, int padded_lanes,
   }
 }
 
-void AddPairDouble(const double* HWY_RESTRICT sums, int padded_lanes,
-                   const PairTarget<double>& target) {
-  AddPair(sums, padded_lanes, target);
-}
-void AddPairFloat(const float* HWY_RESTRICT sums, int padded_lanes,
-                  const PairTarget<float>& target) {
-  AddPair(sums, padded_lanes, target);
-}
-void AddPairStrainDouble(const double* HWY_RESTRICT sums, int padded_lanes,
-                         const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-                         double* HWY_RESTRICT out) {
-  AddPairStrain(sums, padded_lanes, tractions, pressure, out);
-}
-void AddPairStrainFloat(const float* HWY_RESTRICT sums, int padded_lanes,
-                        const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-                        float* HWY_RESTRICT out) {
-  AddPairStrain(sums, padded_lanes, tractions, pressure, out);
-}
-
 void AccumulatePairDouble(const LaneTable<double>& table, const PairScales& scales,
                           const PairBatch& batch, PairScratch<double>& scratch,
-                          double* HWY_RESTRICT sums) {
+                          const PairSums<double>& sums) {
   AccumulatePair(table, scales, batch, scratch, sums);
+}
+void AddScaledDouble(double factor, const double* from, double* to, std::size_t size) {
+  AddScaled(factor, from, to, size);
+}
+void CombineShapesDouble(const double* weights, const double* from, int entries, int padded_lanes,
+                         double* to) {
+  CombineShapes(weights, from, entries, padded_lanes, to);
+}
+void AddStrainDouble(const double* uniform, int padded_lanes,
+                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+                     double* out) {
+  AddStrain(uniform, padded_lanes, tractions, pressure, out);
 }
 void AccumulatePairFloat(const LaneTable<float>& table, const PairScales& scales,
                          const PairBatch& batch, PairScratch<float>& scratch,
-                         float* HWY_RESTRICT sums) {
+                         const PairSums<float>& sums) {
   AccumulatePair(table, scales, batch, scratch, sums);
+}
+void AddScaledFloat(float factor, const float* from, float* to, std::size_t size) {
+  AddScaled(factor, from, to, size);
+}
+void CombineShapesFloat(const float* weights, const float* from, int entries, int padded_lanes,
+                        float* to) {
+  CombineShapes(weights, from, entries, padded_lanes, to);
+}
+void AddStrainFloat(const float* uniform, int padded_lanes,
+                    const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+                    float* out) {
+  AddStrain(uniform, padded_lanes, tractions, pressure, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -280,10 +309,12 @@ namespace bem {
 
 HWY_EXPORT(AccumulatePairDouble);
 HWY_EXPORT(AccumulatePairFloat);
-HWY_EXPORT(AddPairDouble);
-HWY_EXPORT(AddPairFloat);
-HWY_EXPORT(AddPairStrainDouble);
-HWY_EXPORT(AddPairStrainFloat);
+HWY_EXPORT(AddScaledDouble);
+HWY_EXPORT(AddScaledFloat);
+HWY_EXPORT(CombineShapesDouble);
+HWY_EXPORT(CombineShapesFloat);
+HWY_EXPORT(AddStrainDouble);
+HWY_EXPORT(AddStrainFloat);
 
 void PairBatch::pad() {
   for (int q = size; q < padded_size(); ++q) {
@@ -293,37 +324,48 @@ void PairBatch::pad() {
 }
 
 void accumulate_pair(const LaneTable<double>& table, const PairScales& scales,
-                     const PairBatch& batch, PairScratch<double>& scratch, double* sums) {
+                     const PairBatch& batch, PairScratch<double>& scratch,
+                     const PairSums<double>& sums) {
   HWY_DYNAMIC_DISPATCH(AccumulatePairDouble)(table, scales, batch, scratch, sums);
 }
 
+void add_scaled(double factor, const double* from, double* to, std::size_t size) {
+  HWY_DYNAMIC_DISPATCH(AddScaledDouble)(factor, from, to, size);
+}
+
+void combine_shapes(const double* weights, const double* from, int entries, int padded_lanes,
+                    double* to) {
+  HWY_DYNAMIC_DISPATCH(CombineShapesDouble)(weights, from, entries, padded_lanes, to);
+}
+
+void add_strain(const double* uniform, int padded_lanes,
+                const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
+                double* out) {
+  HWY_DYNAMIC_DISPATCH(AddStrainDouble)(uniform, padded_lanes, tractions, pressure, out);
+}
+
 void accumulate_pair(const LaneTable<float>& table, const PairScales& scales,
-                     const PairBatch& batch, PairScratch<float>& scratch, float* sums) {
+                     const PairBatch& batch, PairScratch<float>& scratch,
+                     const PairSums<float>& sums) {
   HWY_DYNAMIC_DISPATCH(AccumulatePairFloat)(table, scales, batch, scratch, sums);
 }
 
-void add_pair(const double* sums, int padded_lanes, const PairTarget<double>& target) {
-  HWY_DYNAMIC_DISPATCH(AddPairDouble)(sums, padded_lanes, target);
+void add_scaled(float factor, const float* from, float* to, std::size_t size) {
+  HWY_DYNAMIC_DISPATCH(AddScaledFloat)(factor, from, to, size);
 }
 
-void add_pair(const float* sums, int padded_lanes, const PairTarget<float>& target) {
-  HWY_DYNAMIC_DISPATCH(AddPairFloat)(sums, padded_lanes, target);
+void combine_shapes(const float* weights, const float* from, int entries, int padded_lanes,
+                    float* to) {
+  HWY_DYNAMIC_DISPATCH(CombineShapesFloat)(weights, from, entries, padded_lanes, to);
 }
 
-void add_pair_strain(const double* sums, int padded_lanes,
-                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-                     double* out) {
-  HWY_DYNAMIC_DISPATCH(AddPairStrainDouble)(sums, padded_lanes, tractions, pressure, out);
-}
-
-void add_pair_strain(const float* sums, int padded_lanes,
-                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-                     float* out) {
-  HWY_DYNAMIC_DISPATCH(AddPairStrainFloat)(sums, padded_lanes, tractions, pressure, out);
+void add_strain(const float* uniform, int padded_lanes,
+                const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure, float* out) {
+  HWY_DYNAMIC_DISPATCH(AddStrainFloat)(uniform, padded_lanes, tractions, pressure, out);
 }
 
 void accumulate_pair_reference(const LaneTable<double>& table, const PairScales& scales,
-                               const PairBatch& batch, double* sums) {
+                               const PairBatch& batch, const PairSums<double>& sums) {
   const std::size_t stride = table.padded_lanes;
   std::vector<double> values(kHypersingularCount * stride);
   for (int q = 0; q < batch.size; ++q) {
@@ -337,14 +379,18 @@ void accumulate_pair_reference(const LaneTable<double>& table, const PairScales&
                  adjoint = dynamic_adjoint_kernel(g, f);
       const Vec3 pressure = pressure_kernel(g, f, scales.kappa);
       for (int x = 0; x < 6; ++x) {
-        for (int e = 0; e < 9; ++e)
-          for (int y = 0; y < 6; ++y) {
-            const double weight = batch.x_shape[x][q] * batch.y_shape[y][q];
-            sums[inertia_sum(e, y, x) * stride + lane] += weight * inertia(e / 3, e % 3);
-            if (y < 3) sums[adjoint_sum(e, y, x) * stride + lane] += weight * adjoint(e / 3, e % 3);
-          }
-        for (int e = 0; e < 3; ++e)
-          sums[(kSumPressure + 6 * e + x) * stride + lane] += batch.x_shape[x][q] * pressure[e];
+        const double weight = batch.x_shape[x][q];
+        const auto add = [&](double* to, int entry, double value) {
+          to[(6 * entry + x) * stride + lane] += value;
+        };
+        for (int e = 0; e < 9; ++e) {
+          for (int y = 0; y < 6; ++y)
+            add(sums.inertia[y], e, weight * batch.y_shape[y][q] * inertia(e / 3, e % 3));
+          for (int y = 0; y < 3; ++y)
+            add(sums.adjoint[y], e, weight * batch.y_shape[y][q] * adjoint(e / 3, e % 3));
+          add(sums.uniform, e, weight * adjoint(e / 3, e % 3));
+        }
+        for (int e = 0; e < 3; ++e) add(sums.uniform, 9 + e, weight * pressure[e]);
       }
     }
   }

@@ -22,20 +22,18 @@ struct PairBatch {
   void pad();
 };
 
-/// What is summed over the points of a pair of triangles, for every lane (lag and stage component):
-/// the dynamic kernels times the shape functions of both triangles.
-enum PairSum : int {
-  kSumInertia = 0,                   ///< Z: [3x3 entry, row-major][shape of y][shape of x]
-  kSumAdjoint = kSumInertia + 324,   ///< J: [3x3 entry][linear shape of y][shape of x]
-  kSumPressure = kSumAdjoint + 162,  ///< pressure_kernel(): [axis][shape of x]
-  kPairSums = kSumPressure + 18
+/// Where the sums over the points of a pair of triangles go, for every lane (lag and stage
+/// component): the dynamic kernels times the shape functions of both triangles. Arrays are
+/// [entry][shape of x][padded lane].
+template <class T>
+struct PairSums {
+  static constexpr int kShapes = 6;  ///< of x
+  static constexpr int kUniform = 12;
+
+  T* inertia[6];  ///< Z by shape of y, 9 entries (row-major); all null: not wanted
+  T* adjoint[3];  ///< J by corner of y, 9 entries
+  T* uniform;     ///< J of tractions that are constant on y: 9 entries, then pressure_kernel(): 3
 };
-constexpr int inertia_sum(int entry, int y, int x) {
-  return kSumInertia + 36 * entry + 6 * y + x;
-}
-constexpr int adjoint_sum(int entry, int y, int x) {
-  return kSumAdjoint + 18 * entry + 6 * y + x;
-}
 
 /// What the kernels of a pair have in common.
 struct PairScales {
@@ -59,43 +57,34 @@ struct PairScratch {
   alignas(64) T values[kTensors * PairBatch::kCapacity * (64 / sizeof(T))];
 };
 
-/// sums[PairSum][padded lane] += the contribution of a batch of points; `table` is of
-/// hypersingular_family(). Runs on the widest vector unit of the machine.
+/// Adds the contribution of a batch of points; `table` is of hypersingular_family(). Runs on the
+/// widest vector unit of the machine.
 void accumulate_pair(const LaneTable<double>& table, const PairScales& scales,
-                     const PairBatch& batch, PairScratch<double>& scratch, double* sums);
+                     const PairBatch& batch, PairScratch<double>& scratch,
+                     const PairSums<double>& sums);
 void accumulate_pair(const LaneTable<float>& table, const PairScales& scales,
-                     const PairBatch& batch, PairScratch<float>& scratch, float* sums);
+                     const PairBatch& batch, PairScratch<float>& scratch,
+                     const PairSums<float>& sums);
 
-/// Where the sums of a pair go: combinations of the shape functions of both triangles, which are
-/// rows and columns of blocks [row][column][3x3 entry][padded lane].
-template <class T>
-struct PairTarget {
-  int rows, columns;
-  const T* row_weights;     ///< [rows][6]
-  const T* column_weights;  ///< [columns][6]
-  const int* row_slots;     ///< by row: its place in the blocks
-  const int* column_slots;
-  const int* corner_slots;  ///< of the three corners of y, which tractions belong to
-  std::size_t block_columns;
-  T* inertia;
-  T* adjoint;
-};
+/// The same in plain scalar code, for tests.
+void accumulate_pair_reference(const LaneTable<double>& table, const PairScales& scales,
+                               const PairBatch& batch, const PairSums<double>& sums);
 
-/// Adds Z and J of a pair to their targets.
-void add_pair(const double* sums, int padded_lanes, const PairTarget<double>& target);
-void add_pair(const float* sums, int padded_lanes, const PairTarget<float>& target);
+/// to[i] += factor * from[i]; `size` is a multiple of LaneTable<T>::kLanePadding.
+void add_scaled(double factor, const double* from, double* to, std::size_t size);
+void add_scaled(float factor, const float* from, float* to, std::size_t size);
+
+/// to[entry][padded lane] += sum over the shapes of x of weights[shape] from[entry][shape][lane].
+void combine_shapes(const double* weights, const double* from, int entries, int padded_lanes,
+                    double* to);
+void combine_shapes(const float* weights, const float* from, int entries, int padded_lanes,
+                    float* to);
 
 /// out[shape of x][3 axes x 6][padded lane] += J of tractions that are constant on y: `tractions`
-/// (3 x 6), and `pressure` times the sums of the pressure kernel.
-void add_pair_strain(const double* sums, int padded_lanes,
-                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-                     double* out);
-void add_pair_strain(const float* sums, int padded_lanes,
-                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-                     float* out);
-
-/// The sums in plain scalar code, for tests.
-void accumulate_pair_reference(const LaneTable<double>& table, const PairScales& scales,
-                               const PairBatch& batch, double* sums);
+/// (3 x 6), and `pressure` times the pressure kernel, from PairSums::uniform.
+void add_strain(const double* uniform, int padded_lanes,
+                const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure, double* out);
+void add_strain(const float* uniform, int padded_lanes,
+                const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure, float* out);
 
 }  // namespace bem
