@@ -21,6 +21,13 @@ int slot_of(const std::vector<int>& nodes, int node) {
   return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
 }
 
+/// Zeros; faster than assign() with this allocator.
+template <class T>
+void set_zero(AlignedVector<T>& values, std::size_t size) {
+  values.resize(size);
+  std::fill(values.begin(), values.end(), T(0));
+}
+
 }  // namespace
 
 /// Neighbouring triangles of y. Sums are taken by their shape functions, hats of corners and
@@ -140,8 +147,8 @@ void GalerkinAssembler::assemble_rows(int first, int last, const LaneTable<T>& l
   rows.last = last;
   rows.nodes = n;
   rows.padded_lanes = lanes.padded_lanes;
-  rows.inertia.assign(std::size_t(count) * n * 9 * stride, T(0));
-  rows.adjoint.assign(std::size_t(count) * n * 9 * stride, T(0));
+  set_zero(rows.inertia, std::size_t(count) * n * 9 * stride);
+  set_zero(rows.adjoint, std::size_t(count) * n * 9 * stride);
   rows.strain.assign(std::size_t(count) * 18 * stride, 0.0);
   rows.static_h = rows.static_g = Eigen::MatrixXd::Zero(3 * count, 3 * n);
 
@@ -245,9 +252,9 @@ void GalerkinAssembler::sum_cluster(int tx, const Cluster& cluster, const LaneTa
   // tractions of uniform strain e: 2 mu e n + lambda tr(e) n, where lambda kappa is finite
   const Vector6 pressure = m.shear_modulus * m.poisson_ratio / (1 - m.poisson_ratio) *
                            symmetric_entries(Mat3::Identity());
-  work.inertia.assign(cluster.shape_count() * part, T(0));
-  work.adjoint.assign(cluster.hats.size() * part, T(0));
-  work.strain.assign(18 * kShapes * stride, T(0));
+  set_zero(work.inertia, cluster.shape_count() * part);
+  set_zero(work.adjoint, cluster.hats.size() * part);
+  set_zero(work.strain, 18 * kShapes * stride);
   work.static_h = Eigen::MatrixXd::Zero(18, 3 * cluster.shape_count());
   work.static_g = Eigen::MatrixXd::Zero(18, static_cast<Eigen::Index>(3 * cluster.hats.size()));
   for (int t = cluster.begin; t < cluster.end; ++t) {
@@ -255,7 +262,7 @@ void GalerkinAssembler::sum_cluster(int tx, const Cluster& cluster, const LaneTa
     PairSums<T> sums;
     for (int j = 0; j < kShapes; ++j) sums.inertia[j] = &work.inertia[shapes[j] * part];
     for (int j = 0; j < 3; ++j) sums.adjoint[j] = &work.adjoint[shapes[j] * part];
-    work.uniform.assign(PairSums<T>::kUniform * kShapes * stride, T(0));
+    set_zero(work.uniform, PairSums<T>::kUniform * kShapes * stride);
     sums.uniform = work.uniform.data();
     sum_dynamic(tx, t, lanes, work.batch, work.scratch, sums);
     add_strain(sums.uniform, lanes.padded_lanes,
@@ -275,7 +282,7 @@ void GalerkinAssembler::sum_cluster(int tx, const Cluster& cluster, const LaneTa
 template <class T>
 void GalerkinAssembler::combine_columns(const Cluster& cluster, std::size_t part,
                                         Workspace<T>& work) const {
-  work.by_node.assign(cluster.nodes.size() * part, T(0));
+  set_zero(work.by_node, cluster.nodes.size() * part);
   work.static_by_node =
       Eigen::MatrixXd::Zero(18, static_cast<Eigen::Index>(3 * cluster.nodes.size()));
   const auto add = [&](std::size_t shape, int node, double factor) {
@@ -295,9 +302,9 @@ void GalerkinAssembler::assemble_block(const std::vector<RowTriangle>& triangles
                                        Block<T>& block) const {
   const std::size_t stride = lanes.padded_lanes, columns = cluster.nodes.size();
   const std::size_t part = 9 * kShapes * stride;
-  block.inertia.assign(row_count * columns * 9 * stride, T(0));
-  block.adjoint.assign(row_count * columns * 9 * stride, T(0));
-  block.strain.assign(std::size_t(row_count) * 18 * stride, T(0));
+  set_zero(block.inertia, row_count * columns * 9 * stride);
+  set_zero(block.adjoint, row_count * columns * 9 * stride);
+  set_zero(block.strain, std::size_t(row_count) * 18 * stride);
   block.static_h = block.static_g =
       Eigen::MatrixXd::Zero(3 * row_count, static_cast<Eigen::Index>(3 * columns));
   Workspace<T> work;
@@ -320,7 +327,8 @@ void GalerkinAssembler::assemble_block(const std::vector<RowTriangle>& triangles
       for (int a = 0; a < kShapes; ++a) {
         const double w = r.weights[k][a];
         if (w == 0) continue;
-        block.static_h.template middleRows<3>(row) += w * work.static_by_node.template middleRows<3>(3 * a);
+        block.static_h.template middleRows<3>(row) +=
+            w * work.static_by_node.template middleRows<3>(3 * a);
         for (std::size_t i = 0; i < cluster.hats.size(); ++i)
           block.static_g.template block<3, 3>(row, 3 * cluster.hats[i]) +=
               w * work.static_g.template block<3, 3>(3 * a, static_cast<Eigen::Index>(3 * i));
@@ -344,7 +352,7 @@ void GalerkinAssembler::sum_loads(int tx, const std::vector<PanelLoad>& loads,
   const std::size_t shapes = kShapes * static_cast<std::size_t>(lanes.padded_lanes);
   Workspace<T> work;
   part.rest = Eigen::MatrixXd::Zero(18, cases);
-  part.dynamic.assign(3 * cases * shapes, T(0));
+  set_zero(part.dynamic, 3 * cases * shapes);
   for (const PanelLoad& load : loads) {
     check_interruption();
     Eigen::Matrix<double, 9, Eigen::Dynamic> corners(9, cases);
@@ -355,8 +363,8 @@ void GalerkinAssembler::sum_loads(int tx, const std::vector<PanelLoad>& loads,
     add_static_pair(quadrature_, m.shear_modulus, m.kappa(), tx, load.triangle, unused, adjoint);
     part.rest -= adjoint * corners;
     if (load.triangle == tx) part.rest += 0.5 * mass_matrix(quadrature_.area(tx)) * corners;
-    work.adjoint.assign(27 * shapes, T(0));
-    work.uniform.assign(PairSums<T>::kUniform * shapes, T(0));
+    set_zero(work.adjoint, 27 * shapes);
+    set_zero(work.uniform, PairSums<T>::kUniform * shapes);
     PairSums<T> sums{};
     for (int b = 0; b < 3; ++b) sums.adjoint[b] = &work.adjoint[9 * b * shapes];
     sums.uniform = work.uniform.data();

@@ -16,15 +16,15 @@ constexpr int kMoreForObtuse = 3;  // Gauss points per direction
 /// Cosines of the angle of the normals at a shared edge from which on it counts as sharp: for the
 /// dynamic parts, whose kernels are not symmetric about it, and for the static ones.
 constexpr double kFolded = 0.8, kSharp = -0.2;
-constexpr int kMoreForEdges = 4, kMostForWaves = 4;
+constexpr int kDynamicForEdges = 4, kStaticForEdges = 4, kMostForWaves = 4;
 constexpr int kStaticRadial = 3, kDynamicRadial = 4;  // exact for static kernels, for Z(0)
 
 /// Gauss points per direction of touching pairs for an error relative to the largest entry.
 int static_order(double tolerance) {
-  return std::clamp(static_cast<int>(std::ceil(2 - std::log10(tolerance))), 4, 14);
+  return std::clamp(static_cast<int>(std::ceil(1 - std::log10(tolerance))), 4, 14);
 }
 int dynamic_order(double tolerance) {
-  return std::clamp(static_cast<int>(std::ceil(1 - 0.6 * std::log10(tolerance))), 3, 12);
+  return std::clamp(static_cast<int>(std::ceil(1 - 0.5 * std::log10(tolerance))), 3, 12);
 }
 
 double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -86,7 +86,7 @@ double triangle_distance(const Vec3* a, const Vec3* b) {
 
 PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, double wave_number)
     : mesh_(mesh),
-      static_choice_(10 * tolerance),
+      static_choice_(100 * tolerance),
       dynamic_choice_(1000 * tolerance),
       wave_number_(wave_number),
       static_order_(static_order(tolerance)),
@@ -113,11 +113,13 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
   const int radial =
       kDynamicRadial + std::min(kMostForWaves, static_cast<int>(0.4 * longest_wave()));
   for (const Adjacency adjacency : {Adjacency::vertex, Adjacency::edge, Adjacency::identical})
-    for (const int more : {0, kMoreForObtuse, kMoreForEdges, kMoreForObtuse + kMoreForEdges}) {
-      const int n = static_order_ + more, m = dynamic_order_ + more;
-      static_rules_[{adjacency, n}] = touching_rule(adjacency, n, kStaticRadial);
-      dynamic_rules_[{adjacency, m}] = touching_rule(adjacency, m, radial);
-    }
+    for (const int obtuse : {0, kMoreForObtuse})
+      for (const bool edge : {false, true}) {
+        const int n = static_order_ + obtuse + edge * kStaticForEdges,
+                  m = dynamic_order_ + obtuse + edge * kDynamicForEdges;
+        static_rules_[{adjacency, n}] = touching_rule(adjacency, n, kStaticRadial);
+        dynamic_rules_[{adjacency, m}] = touching_rule(adjacency, m, radial);
+      }
 }
 
 /// |s| h/c2 of the longest edge.
@@ -153,7 +155,7 @@ int PairQuadrature::touching_order(int tx, int ty, Adjacency adjacency, KernelPa
     order += kMoreForObtuse;
   if (adjacency == Adjacency::edge &&
       panels_[tx].normal.dot(panels_[ty].normal) < (is_static ? kSharp : kFolded))
-    order += kMoreForEdges;
+    order += is_static ? kStaticForEdges : kDynamicForEdges;
   return order;
 }
 
