@@ -83,7 +83,8 @@ TEST_CASE("the Galerkin equations hold exactly for rigid motions and uniform str
     for (const TriangleMesh& mesh : bodies) {
       if (nu == 0.5 && mesh.vertices.size() > 4) continue;  // takes half a minute
       const Material m = material(1.3, 2.1, nu);
-      constexpr double tolerance = 5e-6;
+      // dynamic parts are integrated with fewer points than static ones
+      constexpr double tolerance = 5e-6, inertia_tolerance = 2e-5;
       const auto n = static_cast<Eigen::Index>(3 * mesh.vertices.size());
       const EdgeReconstruction reconstruction(mesh);
       const MassProperties mass = mass_properties(mesh, m.density);
@@ -100,10 +101,10 @@ TEST_CASE("the Galerkin equations hold exactly for rigid motions and uniform str
       const Eigen::MatrixXcd masses = -rigid.transpose() * rest.d;
       CHECK((masses.topRows<3>() - mass.mass * Mat3::Identity().cast<Complex>())
                 .cwiseAbs()
-                .maxCoeff() < tolerance * mass.mass);
+                .maxCoeff() < inertia_tolerance * mass.mass);
       const Eigen::MatrixXcd inertia = -rigid.rightCols<3>().transpose() * rest.q;
       CHECK((inertia - mass.inertia.cast<Complex>()).cwiseAbs().maxCoeff() <
-            tolerance * mass.inertia.cwiseAbs().maxCoeff());
+            inertia_tolerance * mass.inertia.cwiseAbs().maxCoeff());
 
       for (const Complex s : {Complex(0), Complex(3, -2)}) {
         Mat3 a;
