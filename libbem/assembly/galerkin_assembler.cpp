@@ -14,8 +14,9 @@ namespace {
 
 constexpr int kShapes = 6;
 constexpr int kClusterTriangles = 32;
-/// |s| dt up to which the quadrature resolves waves: what is faster, schemes get wrong or damp.
-constexpr double kResolvedSymbol = 3;
+/// |s| dt up to which the quadrature resolves waves. Up to 3, what schemes do not damp, changes
+/// neither errors nor growth (docs/accuracy.md), and takes up to eight times as long.
+constexpr double kResolvedSymbol = 1;
 
 int slot_of(const std::vector<int>& nodes, int node) {
   return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
@@ -224,23 +225,14 @@ void GalerkinAssembler::sum_dynamic(int tx, int ty, const LaneTable<T>& lanes, P
   const Material& m = discretisation_.material;
   const PairScales scales{m.density, m.kappa(), 1 / (m.shear_speed() * discretisation_.dt),
                           quadrature_.normal(tx), quadrature_.normal(ty)};
-  batch.size = 0;
-  const auto flush = [&] {
-    batch.pad();
-    accumulate_pair(lanes, scales, batch, scratch, sums);
-    batch.size = 0;
+  const auto consume = [&](const PairBatch& b) {
+    accumulate_pair(lanes, scales, b, scratch, sums);
   };
+  FibreCollector fibres(batch, consume);
   quadrature_.for_each_point(tx, ty, KernelPart::dynamic_part, [&](const PairPoint& p) {
-    const Vec3 r = quadrature_.position(ty, p.y) - quadrature_.position(tx, p.x);
-    const auto x = quadratic_shapes(p.x), y = quadratic_shapes(p.y);
-    for (int i = 0; i < 3; ++i) batch.r[i][batch.size] = r[i];
-    for (int a = 0; a < kShapes; ++a) {
-      batch.x_shape[a][batch.size] = p.weight * x[a];
-      batch.y_shape[a][batch.size] = y[a];
-    }
-    if (++batch.size == PairBatch::kCapacity) flush();
+    fibres.add(quadrature_.position(ty, p.y) - quadrature_.position(tx, p.x), p.x, p.y, p.weight);
   });
-  if (batch.size > 0) flush();
+  fibres.finish();
 }
 
 /// The sums of a triangle of x with all triangles of a cluster.

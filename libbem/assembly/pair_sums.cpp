@@ -30,8 +30,7 @@ enum : int {
 };
 static_assert(kOfDilation + 3 == PairScratch<double>::kCoefficients);
 
-/// Tensor coefficients and products of shape functions of all points, lanes over points; also finds
-/// the table intervals.
+/// Tensor coefficients of all points, lanes over points; also finds the table intervals.
 template <class T>
 void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const PairBatch& batch,
                       PairScratch<T>& scratch) {
@@ -89,27 +88,24 @@ void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const
     for (int i = 0; i < 3; ++i)
       store(kOfDilation + i, hn::MulAdd(along_m, m[i], hn::Mul(along_n, n[i])));
 
-    for (int a = 0; a < 6; ++a) {
-      const V x_shape = LoadPoints(d, batch.x_shape[a] + q);
-      hn::Store(x_shape, d, scratch.x_weight[a] + q);
-      for (int b = 0; b < 6; ++b)
-        hn::Store(hn::Mul(x_shape, LoadPoints(d, batch.y_shape[b] + q)), d,
-                  scratch.weight[6 * b + a] + q);
-    }
+    for (int a = 0; a < PairBatch::kRows; ++a)
+      hn::Store(LoadPoints(d, batch.moving[a] + q), d, scratch.moving[a] + q);
   }
+  for (int a = 0; a < PairBatch::kRows; ++a)
+    for (int f = 0; f < batch.fibres; ++f)
+      scratch.staying[a][f] = static_cast<T>(batch.staying[a][f]);
   for (int q = 0; q < batch.padded_size(); ++q)
     scratch.interval[q] = table.interval(static_cast<int>(intervals[q]));
 }
 
-/// The kernels at all points for a vector of lanes: values[tensor entry][point].
-template <bool with_inertia, class D, class T = hn::TFromD<D>>
-HWY_INLINE void EvaluateTensors(D d, const LaneTable<T>& table, std::size_t lane, int size,
-                                PairScratch<T>& scratch) {
+/// The radial functions at the points of a fibre for a vector of lanes: radial[function][point].
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE void EvaluateRadial(D d, const LaneTable<T>& table, std::size_t lane, int begin, int end,
+                               PairScratch<T>& scratch) {
   constexpr int kNodes = LaneTable<T>::kNodes;
   using V = hn::Vec<D>;
   const std::size_t stride = table.padded_lanes;
-  const std::size_t step = PairBatch::kCapacity * hn::Lanes(d);
-  for (int q = 0; q < size; ++q) {
+  for (int q = begin; q < end; ++q) {
     const T* HWY_RESTRICT c = scratch.interval[q] + lane;
     const V t = hn::Set(d, scratch.local[q]);
     V f[kHypersingularCount];
@@ -121,91 +117,198 @@ HWY_INLINE void EvaluateTensors(D d, const LaneTable<T>& table, std::size_t lane
 #pragma GCC unroll 9
       for (int k = 0; k < kHypersingularCount; ++k)
         f[k] = hn::MulAdd(f[k], t, hn::Load(d, c + (k * kNodes + degree) * stride));
-    const auto at = [&](int row) { return hn::Set(d, scratch.coefficient[row][q]); };
-    T* HWY_RESTRICT out = scratch.values + q * hn::Lanes(d);
 #pragma GCC unroll 9
-    for (int e = 0; e < 9; ++e) {
-      if constexpr (with_inertia) {
-        V z = hn::Mul(at(kOfAlpha + e), f[kAlpha]);
-        z = hn::MulAdd(at(kOfBeta + e), f[kBeta], z);
-        z = hn::MulAdd(at(kOfGamma + e), f[kGamma], z);
-        z = hn::MulAdd(at(kOfDelta + e), f[kDelta], z);
-        z = hn::MulAdd(at(kOfEpsilon + e), f[kEpsilon], z);
-        hn::Store(z, d, out + e * step);
-      }
-      V j = hn::Mul(at(kOfP + e), f[kDynamicP]);
-      j = hn::MulAdd(at(kOfQ + e), f[kDynamicQ], j);
-      j = hn::MulAdd(at(kOfS + e), f[kDynamicS], j);
-      hn::Store(j, d, out + (9 + e) * step);
-    }
-    for (int e = 0; e < 3; ++e)
-      hn::Store(hn::Mul(at(kOfDilation + e), f[kDilation]), d, out + (18 + e) * step);
+    for (int k = 0; k < kHypersingularCount; ++k)
+      hn::Store(f[k], d,
+                scratch.radial + (k * PairBatch::kLongestFibre + q - begin) * hn::Lanes(d));
   }
 }
 
-/// a[i] += weight_a[i][q] values[q] and b[i] += weight_b[i][q] values[q] for the six shapes of x.
-template <class D, int row_size, class T = hn::TFromD<D>>
-HWY_INLINE void AccumulateTwice(D d, const T (*weight_a)[row_size], const T (*weight_b)[row_size],
-                                int size, const T* HWY_RESTRICT values, T* a, T* b,
-                                std::size_t stride) {
+/// A tensor: how many functions it consists of, the first one's number, the row of its first
+/// coefficient, and its entries.
+struct Tensor {
+  int functions, first_function, coefficient, entries;
+};
+constexpr Tensor kInertiaTensor = {5, kAlpha, kOfAlpha, 9},
+                 kAdjointTensor = {3, kDynamicP, kOfP, 9},
+                 kPressureTensor = {1, kDilation, kOfDilation, 3};
+static_assert(kEpsilon == kAlpha + 4 && kDynamicS == kDynamicP + 2);
+
+/// Entries of a tensor times `shapes` rows of shape functions that move, summed over a fibre:
+/// out[entry][shape], a fibre apart by lanes.
+template <int functions, int entries, int shapes, class D, class T = hn::TFromD<D>>
+HWY_INLINE void SumFibre(D d, const Tensor& tensor, int first_entry, int first_shape, int begin,
+                         int end, const PairScratch<T>& scratch, T* HWY_RESTRICT out) {
   using V = hn::Vec<D>;
-  V sum_a[6], sum_b[6];
+  const std::size_t lanes = hn::Lanes(d);
+  V sum[entries * shapes];
+#pragma GCC unroll 18
+  for (int i = 0; i < entries * shapes; ++i) sum[i] = hn::Zero(d);
+  for (int q = begin; q < end; ++q) {
+    V value[entries];
+#pragma GCC unroll 5
+    for (int k = 0; k < functions; ++k) {
+      const V f = hn::Load(
+          d, scratch.radial +
+                 ((tensor.first_function + k) * PairBatch::kLongestFibre + q - begin) * lanes);
+#pragma GCC unroll 3
+      for (int e = 0; e < entries; ++e) {
+        const V c = hn::Set(
+            d, scratch.coefficient[tensor.coefficient + k * tensor.entries + first_entry + e][q]);
+        value[e] = k == 0 ? hn::Mul(c, f) : hn::MulAdd(c, f, value[e]);
+      }
+    }
 #pragma GCC unroll 6
-  for (int i = 0; i < 6; ++i) {
-    sum_a[i] = hn::Load(d, a + i * stride);
-    sum_b[i] = hn::Load(d, b + i * stride);
-  }
-  for (int q = 0; q < size; ++q) {
-    const V value = hn::Load(d, values + q * hn::Lanes(d));
-#pragma GCC unroll 6
-    for (int i = 0; i < 6; ++i) {
-      sum_a[i] = hn::MulAdd(hn::Set(d, weight_a[i][q]), value, sum_a[i]);
-      sum_b[i] = hn::MulAdd(hn::Set(d, weight_b[i][q]), value, sum_b[i]);
+    for (int a = 0; a < shapes; ++a) {
+      const V shape = hn::Set(d, scratch.moving[first_shape + a][q]);
+#pragma GCC unroll 3
+      for (int e = 0; e < entries; ++e)
+        sum[e * shapes + a] = hn::MulAdd(shape, value[e], sum[e * shapes + a]);
     }
   }
+#pragma GCC unroll 18
+  for (int i = 0; i < entries * shapes; ++i)
+    hn::Store(sum[i], d, out + i * PairBatch::kFibres * lanes);
+}
+
+/// As many entries at a time as registers hold.
+constexpr int kEntriesTogether = HWY_TARGET <= HWY_AVX3 ? 3 : 1;
+
+template <int functions, int shapes, class D, class T = hn::TFromD<D>>
+HWY_INLINE void SumTensor(D d, const Tensor& tensor, int first_shape, int begin, int end,
+                          const PairScratch<T>& scratch, T* out) {
+  for (int e = 0; e < tensor.entries; e += kEntriesTogether)
+    SumFibre<functions, kEntriesTogether, shapes>(
+        d, tensor, e, first_shape, begin, end, scratch,
+        out + e * shapes * PairBatch::kFibres * hn::Lanes(d));
+}
+
+/// to[i][a] += x[a][f] sums[i][f] over fibres whose x stays, for the six shapes a of x.
+template <int n, class D, class T = hn::TFromD<D>>
+HWY_INLINE void SpreadOverX(D d, const T (*x)[PairBatch::kFibres], int fibres,
+                            const T* const (&sums)[n], T* const (&to)[n], std::size_t stride) {
+  using V = hn::Vec<D>;
+  V sum[n][6];
+#pragma GCC unroll 2
+  for (int i = 0; i < n; ++i)
 #pragma GCC unroll 6
-  for (int i = 0; i < 6; ++i) {
-    hn::Store(sum_a[i], d, a + i * stride);
-    hn::Store(sum_b[i], d, b + i * stride);
+    for (int a = 0; a < 6; ++a) sum[i][a] = hn::Load(d, to[i] + a * stride);
+  for (int f = 0; f < fibres; ++f) {
+    V value[n];
+#pragma GCC unroll 2
+    for (int i = 0; i < n; ++i) value[i] = hn::Load(d, sums[i] + f * hn::Lanes(d));
+#pragma GCC unroll 6
+    for (int a = 0; a < 6; ++a) {
+      const V weight = hn::Set(d, x[a][f]);
+#pragma GCC unroll 2
+      for (int i = 0; i < n; ++i) sum[i][a] = hn::MulAdd(weight, value[i], sum[i][a]);
+    }
+  }
+#pragma GCC unroll 2
+  for (int i = 0; i < n; ++i)
+#pragma GCC unroll 6
+    for (int a = 0; a < 6; ++a) hn::Store(sum[i][a], d, to[i] + a * stride);
+}
+
+/// to[i][a] += y[i][f] sums[a][f] over fibres whose y stays.
+template <int n, class D, class T = hn::TFromD<D>>
+HWY_INLINE void SpreadOverY(D d, const T* const (&y)[n], int fibres, const T* sums,
+                            T* const (&to)[n], std::size_t stride) {
+  using V = hn::Vec<D>;
+  V sum[n][6];
+#pragma GCC unroll 2
+  for (int i = 0; i < n; ++i)
+#pragma GCC unroll 6
+    for (int a = 0; a < 6; ++a) sum[i][a] = hn::Load(d, to[i] + a * stride);
+  for (int f = 0; f < fibres; ++f) {
+    V weight[n];
+#pragma GCC unroll 2
+    for (int i = 0; i < n; ++i) weight[i] = hn::Set(d, y[i][f]);
+#pragma GCC unroll 6
+    for (int a = 0; a < 6; ++a) {
+      const V value = hn::Load(d, sums + (a * PairBatch::kFibres + f) * hn::Lanes(d));
+#pragma GCC unroll 2
+      for (int i = 0; i < n; ++i) sum[i][a] = hn::MulAdd(weight[i], value, sum[i][a]);
+    }
+  }
+#pragma GCC unroll 2
+  for (int i = 0; i < n; ++i)
+#pragma GCC unroll 6
+    for (int a = 0; a < 6; ++a) hn::Store(sum[i][a], d, to[i] + a * stride);
+}
+
+/// One vector of lanes: sums over each fibre first, of the end that moves, then over the fibres.
+template <bool with_inertia, bool x_stays, class D, class T = hn::TFromD<D>>
+HWY_INLINE void AccumulateLanes(D d, std::size_t lane, const LaneTable<T>& table,
+                                const PairBatch& batch, PairScratch<T>& scratch,
+                                const PairSums<T>& sums) {
+  const std::size_t stride = table.padded_lanes, entry = 6 * stride;
+  const std::size_t step = PairBatch::kFibres * hn::Lanes(d);
+  // of the end that moves: six shapes, of y one and three hats for tractions, one for pressure
+  constexpr int kOfAdjoint = x_stays ? 4 : 6, kOfPressure = x_stays ? 1 : 6;
+  T* const inertia = scratch.fibre_sums;
+  T* const adjoint = inertia + 54 * step;
+  T* const pressure = adjoint + 9 * kOfAdjoint * step;
+  for (int f = 0; f < batch.fibres; ++f) {
+    const int begin = batch.begin[f], end = batch.begin[f + 1];
+    const std::size_t at = f * hn::Lanes(d);
+    EvaluateRadial(d, table, lane, begin, end, scratch);
+    if constexpr (with_inertia)
+      SumTensor<5, 6>(d, kInertiaTensor, 1, begin, end, scratch, inertia + at);
+    SumTensor<3, kOfAdjoint>(d, kAdjointTensor, x_stays ? 0 : 1, begin, end, scratch, adjoint + at);
+    SumTensor<1, kOfPressure>(d, kPressureTensor, x_stays ? 0 : 1, begin, end, scratch,
+                              pressure + at);
+  }
+  const auto spread = [&](int y_first, int y_second, const T* first, std::size_t shapes, int e,
+                          T* to_first, T* to_second) {
+    T* const to[2] = {to_first + e * entry + lane, to_second + e * entry + lane};
+    if constexpr (x_stays) {
+      const T* const from[2] = {first + e * shapes * step, first + (e * shapes + 1) * step};
+      SpreadOverX(d, scratch.staying + 1, batch.fibres, from, to, stride);
+    } else {
+      const T* const y[2] = {scratch.staying[y_first], scratch.staying[y_second]};
+      SpreadOverY(d, y, batch.fibres, first + e * shapes * step, to, stride);
+    }
+  };
+  // moving shapes of y stand one after another, of x they are all needed for any of y
+  const auto at_shape = [&](const T* from, int y) { return x_stays ? from + y * step : from; };
+  for (int e = 0; e < 9; ++e) {
+    if constexpr (with_inertia)
+      for (int y = 0; y < 6; y += 2)
+        spread(y + 1, y + 2, at_shape(inertia, y), 6, e, sums.inertia[y], sums.inertia[y + 1]);
+    spread(0, 1, at_shape(adjoint, 0), kOfAdjoint, e, sums.uniform, sums.adjoint[0]);
+    spread(2, 3, at_shape(adjoint, 2), kOfAdjoint, e, sums.adjoint[1], sums.adjoint[2]);
+  }
+  for (int e = 0; e < 3; ++e) {
+    T* const to[1] = {sums.uniform + (9 + e) * entry + lane};
+    if constexpr (x_stays) {
+      const T* const from[1] = {pressure + e * step};
+      SpreadOverX(d, scratch.staying + 1, batch.fibres, from, to, stride);
+    } else {
+      const T* const y[1] = {scratch.staying[0]};
+      SpreadOverY(d, y, batch.fibres, pressure + 6 * e * step, to, stride);
+    }
   }
 }
 
-template <bool with_inertia, class T>
-void AccumulateLanes(const LaneTable<T>& table, const PairBatch& batch, PairScratch<T>& scratch,
+template <bool with_inertia, bool x_stays, class T>
+void AccumulateBatch(const LaneTable<T>& table, const PairBatch& batch, PairScratch<T>& scratch,
                      const PairSums<T>& sums) {
   const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
-  const std::size_t stride = table.padded_lanes, entry = 6 * stride;
-  const std::size_t step = PairBatch::kCapacity * hn::Lanes(d);
-  for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
-    EvaluateTensors<with_inertia>(d, table, lane, batch.size, scratch);
-    const auto twice = [&](const auto* weight_a, const auto* weight_b, int tensor, T* a, T* b) {
-      AccumulateTwice(d, weight_a, weight_b, batch.size, scratch.values + tensor * step, a + lane,
-                      b + lane, stride);
-    };
-    for (int e = 0; e < 9; ++e) {
-      if constexpr (with_inertia)
-        for (int y = 0; y < 6; y += 2)
-          twice(scratch.weight + 6 * y, scratch.weight + 6 * (y + 1), e,
-                sums.inertia[y] + e * entry, sums.inertia[y + 1] + e * entry);
-      twice(scratch.weight, scratch.weight + 6, 9 + e, sums.adjoint[0] + e * entry,
-            sums.adjoint[1] + e * entry);
-      twice(scratch.weight + 12, scratch.x_weight, 9 + e, sums.adjoint[2] + e * entry,
-            sums.uniform + e * entry);
-    }
-    for (int e = 0; e < 3; ++e)
-      AccumulateRows<6>(d, scratch.x_weight, batch.size, scratch.values + (18 + e) * step,
-                        sums.uniform + (9 + e) * entry + lane, stride);
-  }
+  for (std::size_t lane = 0; lane < static_cast<std::size_t>(table.padded_lanes);
+       lane += hn::Lanes(d))
+    AccumulateLanes<with_inertia, x_stays>(d, lane, table, batch, scratch, sums);
 }
 
 template <class T>
 void AccumulatePair(const LaneTable<T>& table, const PairScales& scales, const PairBatch& batch,
                     PairScratch<T>& scratch, const PairSums<T>& sums) {
   PairCoefficients(table, scales, batch, scratch);
-  if (sums.inertia[0])
-    AccumulateLanes<true>(table, batch, scratch, sums);
-  else
-    AccumulateLanes<false>(table, batch, scratch, sums);
+  const auto accumulate =
+      sums.inertia[0]
+          ? (batch.x_stays ? AccumulateBatch<true, true, T> : AccumulateBatch<true, false, T>)
+          : (batch.x_stays ? AccumulateBatch<false, true, T> : AccumulateBatch<false, false, T>);
+  accumulate(table, batch, scratch, sums);
 }
 
 template <class T>
@@ -318,8 +421,8 @@ HWY_EXPORT(AddStrainFloat);
 
 void PairBatch::pad() {
   for (int q = size; q < padded_size(); ++q) {
-    for (int i = 0; i < 3; ++i) r[i][q] = r[i][0];
-    for (int a = 0; a < 6; ++a) x_shape[a][q] = y_shape[a][q] = 0;
+    for (auto& component : r) component[q] = component[0];
+    for (auto& shape : moving) shape[q] = 0;
   }
 }
 
@@ -368,7 +471,12 @@ void accumulate_pair_reference(const LaneTable<double>& table, const PairScales&
                                const PairBatch& batch, const PairSums<double>& sums) {
   const std::size_t stride = table.padded_lanes;
   std::vector<double> values(kHypersingularCount * stride);
+  int fibre = 0;
   for (int q = 0; q < batch.size; ++q) {
+    if (q == batch.begin[fibre + 1]) ++fibre;
+    const auto shape = [&](bool of_x, int row) {
+      return of_x == batch.x_stays ? batch.staying[row][fibre] : batch.moving[row][q];
+    };
     const Vec3 r(batch.r[0][q], batch.r[1][q], batch.r[2][q]);
     const SurfacePair g = surface_pair(Vec3::Zero(), scales.m, r, scales.n);
     table.evaluate(g.r * scales.lam_per_distance, values.data());
@@ -379,18 +487,18 @@ void accumulate_pair_reference(const LaneTable<double>& table, const PairScales&
                  adjoint = dynamic_adjoint_kernel(g, f);
       const Vec3 pressure = pressure_kernel(g, f, scales.kappa);
       for (int x = 0; x < 6; ++x) {
-        const double weight = batch.x_shape[x][q];
+        const double weight = shape(true, x + 1);
         const auto add = [&](double* to, int entry, double value) {
           to[(6 * entry + x) * stride + lane] += value;
         };
         for (int e = 0; e < 9; ++e) {
           for (int y = 0; y < 6; ++y)
-            add(sums.inertia[y], e, weight * batch.y_shape[y][q] * inertia(e / 3, e % 3));
+            add(sums.inertia[y], e, weight * shape(false, y + 1) * inertia(e / 3, e % 3));
           for (int y = 0; y < 3; ++y)
-            add(sums.adjoint[y], e, weight * batch.y_shape[y][q] * adjoint(e / 3, e % 3));
-          add(sums.uniform, e, weight * adjoint(e / 3, e % 3));
+            add(sums.adjoint[y], e, weight * shape(false, y + 1) * adjoint(e / 3, e % 3));
+          add(sums.uniform, e, weight * shape(false, 0) * adjoint(e / 3, e % 3));
         }
-        for (int e = 0; e < 3; ++e) add(sums.uniform, 9 + e, weight * pressure[e]);
+        for (int e = 0; e < 3; ++e) add(sums.uniform, 9 + e, weight * shape(false, 0) * pressure[e]);
       }
     }
   }

@@ -17,8 +17,8 @@ struct PairPoint {
 /// the corners that they share come first in both, in the same order. The transformations of Sauter
 /// and Schwab (Boundary Element Methods, 5.2) with `radial` Gauss points in the direction away from
 /// what is shared, in which static kernels times shape functions are polynomials, and n in each of
-/// the three others: 6, 5 or 2 radial n^3 points. Identical triangles: the odd part of a kernel
-/// cancels between points that stand one after another.
+/// the three others: 6, 5 or 2 radial n^3 points. Points of which n or n^2 have the same x or the
+/// same y stand one after another.
 std::vector<PairPoint> touching_rule(Adjacency adjacency, int n, int radial);
 
 }  // namespace bem

@@ -27,16 +27,20 @@ double worst_difference(const LaneTable<T>& table, const LaneTable<double>& exac
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1, 1);
   double worst = 0;
-  for (int size : {1, 7, 16, 32}) {
+  for (const auto& [x_stays, sizes] : std::vector<std::pair<bool, std::vector<int>>>{
+           {true, {1}}, {false, {1, 4, 2}}, {true, {16, 16, 3, 16, 13}}, {false, {3, 3, 3}}}) {
     PairScales scales{1.7, 0.2, 1.9, Vec3(1, -2, 0.5).normalized(), Vec3(0.3, 1, -1).normalized()};
     PairBatch batch;
-    batch.size = size;
-    for (int q = 0; q < size; ++q) {
-      for (int i = 0; i < 3; ++i) batch.r[i][q] = 0.6 * any(random);
-      for (int a = 0; a < 6; ++a) {
-        batch.x_shape[a][q] = 0.1 * any(random);
-        batch.y_shape[a][q] = any(random);
-      }
+    batch.x_stays = x_stays;
+    for (int size : sizes) {
+      for (auto& row : batch.staying) row[batch.fibres] = any(random);
+      batch.staying[0][batch.fibres++] = 1;
+      batch.size += size;
+      batch.begin[batch.fibres] = batch.size;
+    }
+    for (int q = 0; q < batch.size; ++q) {
+      for (auto& component : batch.r) component[q] = 0.6 * any(random);
+      for (auto& row : batch.moving) row[q] = 0.1 * any(random);
     }
     batch.pad();
     PairScratch<T> scratch;
@@ -67,4 +71,31 @@ TEST_CASE("sums over pairs of points are those of the scalar kernels") {
     CHECK(worst_difference(table.lanes(), table.lanes()) < 1e-13);
     CHECK(worst_difference(table.single_precision(), table.lanes()) < 2e-5);
   }
+}
+
+TEST_CASE("points are collected in fibres of which one end stays") {
+  const double a[3] = {0.2, 0.3, 0.5}, b[3] = {0.1, 0.1, 0.8}, c[3] = {0.6, 0.3, 0.1};
+  PairBatch batch;
+  std::vector<std::pair<bool, std::vector<int>>> found;  // by batch: does x stay, ends of fibres
+  double weight = 0;
+  const auto consume = [&](const PairBatch& given) {
+    found.emplace_back(given.x_stays, std::vector<int>(given.begin + 1,
+                                                       given.begin + 1 + given.fibres));
+    for (int f = 0; f < given.fibres; ++f)
+      for (int q = given.begin[f]; q < given.begin[f + 1]; ++q)
+        weight += given.moving[0][q] * given.staying[0][f];
+  };
+  FibreCollector fibres(batch, consume);
+  const Vec3 r(1, 2, 3);
+  fibres.add(r, a, b, 1);  // a stays as x
+  fibres.add(r, a, c, 2);
+  fibres.add(r, b, c, 3);  // c stays as y
+  fibres.add(r, a, c, 4);
+  fibres.add(r, c, a, 5);  // alone
+  for (int i = 0; i < 20; ++i) fibres.add(r, b, c, 6);  // longer than a fibre may be
+  fibres.finish();
+  CHECK(weight == Approx(1 + 2 + 3 + 4 + 5 + 20 * 6));
+  const std::vector<std::pair<bool, std::vector<int>>> expected = {
+      {true, {2}}, {false, {2}}, {true, {1, 17, 21}}};
+  CHECK(found == expected);
 }
