@@ -16,9 +16,10 @@ SOFT, HARD = Sphere(1e6, 0.0), Sphere(3e5, 0.45)  # the sphere with other Poisso
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """What a scene has left: times (n), positions (n, N, 3), rotations and translations of the frame."""
+    """What a scene has left: times (n), positions (n, N, 3), triangles, rotations and translations of the frame."""
     times: np.ndarray
     positions: np.ndarray
+    triangles: np.ndarray
     rotations: np.ndarray
     translations: np.ndarray
     steps: int  # per period
@@ -83,9 +84,12 @@ def rod_scene(fixed):
 
 
 def measure_sphere(sphere):
+    """Radius of the sphere of the body's volume: vertices stand out of it, the more the coarser the mesh is."""
     def measure(run):
-        radii = np.linalg.norm(run.positions, axis=2)
-        return compared((radii - radii[0]).mean(axis=1) / sphere.static, sphere.pressed(run.times) / sphere.static)
+        corners = run.positions[:, run.triangles]
+        volumes = np.einsum("fti,fti->f", corners[:, :, 0], np.cross(corners[:, :, 1], corners[:, :, 2])) / 6
+        radii = np.cbrt(3 * volumes / (4 * math.pi))
+        return compared((radii - radii[0]) / sphere.static, sphere.pressed(run.times) / sphere.static)
     return measure
 
 

@@ -118,8 +118,8 @@ class Runner:
             return {**record, "failed": f"diverged after {stats['steps']} of {steps} steps"}
         with h5py.File(self.out / "run/trajectory.h5") as file:
             body = file["bodies/body"]
-            run = Run(file["time"][:], body["positions"][:], body["frame/rotation"][:], body["frame/translation"][:],
-                      setting.steps)
+            run = Run(file["time"][:], body["positions"][:], body["faces"][:], body["frame/rotation"][:],
+                      body["frame/translation"][:], setting.steps)
         return {**record, **measure(run)}
 
 
