@@ -7,20 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace bem {
 namespace {
 
 constexpr int kShapes = 6;
-constexpr int kClusterTriangles = 32;
+constexpr int kPatchTriangles = 16;
 /// |s| dt up to which the quadrature resolves waves. Up to 3, what schemes do not damp, changes
 /// neither errors nor growth (docs/accuracy.md), and takes up to eight times as long.
 constexpr double kResolvedSymbol = 1;
-
-int slot_of(const std::vector<int>& nodes, int node) {
-  return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
-}
 
 /// Zeros; faster than assign() with this allocator.
 template <class T>
@@ -29,84 +24,46 @@ void set_zero(AlignedVector<T>& values, std::size_t size) {
   std::fill(values.begin(), values.end(), T(0));
 }
 
-}  // namespace
+/// A 3 x 3 block of numbers that are stored entry by entry.
+using Entries = std::array<Eigen::MatrixXd, 9>;
 
-/// Neighbouring triangles of y. Sums are taken by their shape functions, hats of corners and
-/// bubbles of edges, and only then combined to the basis functions of the nodes that reach them.
-struct GalerkinAssembler::Cluster {
-  int begin = 0, end = 0;  ///< triangles
-  std::vector<int> nodes;  ///< whose basis functions do not vanish here, ascending
-  std::vector<std::array<int, 6>>
-      shapes;             ///< by triangle: numbers of its hats, then of its bubbles
-  std::vector<int> hats;  ///< by shape: number of the node; bubbles follow
-  std::vector<std::vector<std::pair<int, double>>> bubbles;  ///< numbers of nodes, and rho
-
-  int shape_count() const { return static_cast<int>(hats.size() + bubbles.size()); }
-  Cluster(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction, int first, int last);
-};
-
-GalerkinAssembler::Cluster::Cluster(const TriangleMesh& mesh,
-                                    const EdgeReconstruction& reconstruction, int first, int last)
-    : begin(first), end(last) {
-  const auto& rho = reconstruction.coefficients();
-  using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
-  std::map<int, int> corners, edges;  // by vertex and by edge: number
-  for (int t = begin; t < end; ++t)
-    for (int k = 0; k < 3; ++k) {
-      corners.emplace(mesh.triangles[t][k], 0);
-      edges.emplace(reconstruction.edges().of[t][k], 0);
-    }
-  for (auto& [vertex, number] : corners) nodes.push_back(vertex);
-  for (auto& [edge, number] : edges)
-    for (Row it(rho, edge); it; ++it)
-      if (it.value() != 0) nodes.push_back(static_cast<int>(it.col()));
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  for (auto& [vertex, number] : corners) {
-    number = static_cast<int>(hats.size());
-    hats.push_back(slot_of(nodes, vertex));
-  }
-  for (auto& [edge, number] : edges) {
-    number = shape_count();
-    bubbles.emplace_back();
-    for (Row it(rho, edge); it; ++it)
-      if (it.value() != 0)
-        bubbles.back().emplace_back(slot_of(nodes, static_cast<int>(it.col())), it.value());
-  }
-  for (int t = begin; t < end; ++t) {
-    shapes.emplace_back();
-    for (int k = 0; k < 3; ++k) {
-      shapes.back()[k] = corners.at(mesh.triangles[t][k]);
-      shapes.back()[3 + k] = edges.at(reconstruction.edges().of[t][k]);
-    }
-  }
+void set_zero(Entries& entries, Eigen::Index rows, Eigen::Index columns) {
+  for (Eigen::MatrixXd& e : entries) e = Eigen::MatrixXd::Zero(rows, columns);
 }
 
-/// A triangle of x on which basis functions of wanted rows do not vanish: which, and their shapes.
-struct GalerkinAssembler::RowTriangle {
-  int triangle = 0;
-  std::vector<int> rows;
-  std::vector<std::array<double, kShapes>> weights;
+}  // namespace
+
+/// Rows of a patch of x that are wanted: nodes [first, last).
+struct GalerkinAssembler::PatchRows {
+  std::vector<int> rows;  ///< counted from the first wanted row
+  SparseRows shapes, midpoints;
+  Eigen::MatrixXd dense_shapes;
+
+  PatchRows(const SurfacePatch& patch, int first, int last) {
+    for (std::size_t k = 0; k < patch.nodes.size(); ++k) {
+      if (patch.nodes[k] < first || patch.nodes[k] >= last) continue;
+      rows.push_back(patch.nodes[k] - first);
+      shapes.add_row(patch.displacements, static_cast<int>(k));
+      midpoints.add_row(patch.displacements_at, static_cast<int>(k));
+    }
+    dense_shapes = shapes.dense(patch.shape_count);
+  }
 };
 
-/// What the triangles of one cluster add to the wanted rows: columns are the cluster's nodes.
+/// What one patch of y adds to the wanted rows of one of x, and working memory for it.
 template <class T>
 struct GalerkinAssembler::Block {
-  AlignedVector<T> inertia, adjoint;   ///< [row][column][3x3 entry][padded lane]
-  AlignedVector<T> strain;             ///< [row][3 axes x 6][padded lane]
-  Eigen::MatrixXd static_h, static_g;  ///< 3 rows x 3 columns
-};
+  AlignedVector<T> inertia, adjoint;  ///< [row][node or hat of y][3x3 entry][padded lane]
+  AlignedVector<T> strain;            ///< [row][3 axes x 6][padded lane]
+  Entries static_h, static_g;         ///< rows x nodes or hats of y
 
-/// What one triangle of x has with the triangles of a cluster, by the shape functions of x.
-template <class T>
-struct GalerkinAssembler::Workspace {
-  PairBatch batch;
+  /// The same by shapes or midpoints of x and y, and inertia by shapes of x and nodes of y.
+  AlignedVector<T> own_inertia, own_adjoint, own_strain, by_node;
+  Entries own_static_h, own_static_g;
+  AlignedVector<T> uniform;
+  PairBatch pair_batch;
+  MidpointBatch midpoint_batch;
   PairScratch<T> scratch;
-  AlignedVector<T> inertia, adjoint;  ///< [shape or hat of y][3x3 entry][shape of x][padded lane]
-  AlignedVector<T> uniform;           ///< see PairSums
-  AlignedVector<T> strain;            ///< [3 axes x 6][shape of x][padded lane]
-  AlignedVector<T> by_node;           ///< inertia by the nodes of the cluster
-  Eigen::MatrixXd static_h, static_g, static_by_node;  ///< 18 x 3 per shape, hat, node of y
 };
 
 GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
@@ -124,9 +81,7 @@ GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
   require(d.dt > 0 && d.history_length >= 0, "dt and the length of the history are possible");
   const int count = static_cast<int>(mesh.triangles.size());
   for (int t = 0; t < count; ++t) bases_.push_back(triangle_basis(mesh, reconstruction_, t));
-  for (int begin = 0; begin < count; begin += kClusterTriangles)
-    clusters_.emplace_back(mesh, reconstruction_, begin,
-                           std::min(begin + kClusterTriangles, count));
+  patches_ = make_patches(mesh, reconstruction_, kPatchTriangles);
 }
 
 GalerkinAssembler::~GalerkinAssembler() = default;
@@ -152,81 +107,90 @@ void GalerkinAssembler::assemble_rows(int first, int last, const LaneTable<T>& l
   set_zero(rows.adjoint, std::size_t(count) * n * 9 * stride);
   rows.strain.assign(std::size_t(count) * 18 * stride, 0.0);
   rows.static_h = rows.static_g = Eigen::MatrixXd::Zero(3 * count, 3 * n);
+  add_mass(first, last, rows.static_g);
 
-  std::vector<RowTriangle> triangles;
-  for (std::size_t t = 0; t < bases_.size(); ++t) {
-    RowTriangle r;
-    r.triangle = static_cast<int>(t);
-    for (std::size_t k = 0; k < bases_[t].vertices.size(); ++k) {
-      const int node = bases_[t].vertices[k];
-      if (node < first || node >= last) continue;
-      r.rows.push_back(node - first);
-      r.weights.push_back(bases_[t].weights[k]);
-    }
-    if (!r.rows.empty()) triangles.push_back(std::move(r));
-  }
-  add_mass(triangles, rows.static_g);
-
-  // some clusters at a time, added in their order: the same for any number of threads
+  // some patches of y at a time, added in their order: the same for any number of threads
   const std::size_t together = 2 * static_cast<std::size_t>(thread_count());
-  std::vector<Block<T>> blocks(together);
-  for (std::size_t begin = 0; begin < clusters_.size(); begin += together) {
-    const std::size_t some = std::min(together, clusters_.size() - begin);
-    parallel_for(some, [&](std::size_t i) {
-      assemble_block(triangles, count, clusters_[begin + i], lanes, blocks[i]);
-    });
-    parallel_for(count, [&](std::size_t row) {
-      const std::size_t size = 9 * stride;
-      for (std::size_t i = 0; i < some; ++i) {
-        const std::vector<int>& nodes = clusters_[begin + i].nodes;
-        const Block<T>& block = blocks[i];
-        const auto add = [&](const AlignedVector<T>& from, AlignedVector<T>& to) {
-          for (std::size_t k = 0; k < nodes.size(); ++k) {
-            const T* a = &from[(row * nodes.size() + k) * size];
-            T* b = &to[(row * n + nodes[k]) * size];
-            for (std::size_t e = 0; e < size; ++e) b[e] += a[e];
-          }
-        };
-        add(block.inertia, rows.inertia);
-        add(block.adjoint, rows.adjoint);
-        for (std::size_t e = 0; e < 18 * stride; ++e)
-          rows.strain[row * 18 * stride + e] += block.strain[row * 18 * stride + e];
-        const auto r = static_cast<Eigen::Index>(3 * row);
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
-          const auto c = static_cast<Eigen::Index>(3 * k);
-          const auto add_block = [&](const Eigen::MatrixXd& from, Eigen::MatrixXd& to) {
-            to.block<3, 3>(r, 3 * nodes[k]) += from.block<3, 3>(r, c);
-          };
-          add_block(block.static_h, rows.static_h);
-          add_block(block.static_g, rows.static_g);
-        }
-      }
-    });
-  }
-}
-
-void GalerkinAssembler::add_mass(const std::vector<RowTriangle>& triangles,
-                                 Eigen::MatrixXd& g) const {
-  for (const RowTriangle& r : triangles) {
-    const PairTractions mass = mass_matrix(quadrature_.area(r.triangle));
-    for (std::size_t k = 0; k < r.rows.size(); ++k)
-      for (int j = 0; j < 3; ++j) {
-        double sum = 0;
-        for (int a = 0; a < kShapes; ++a) sum += r.weights[k][a] * mass(3 * a, 3 * j);
-        g.block<3, 3>(3 * r.rows[k], 3 * mesh_.triangles[r.triangle][j]) +=
-            0.5 * sum * Mat3::Identity();
-      }
+  std::vector<Block<T>> blocks(std::min(together, patches_.size()));
+  for (const SurfacePatch& x : patches_) {
+    const PatchRows wanted(x, first, last);
+    if (wanted.rows.empty()) continue;
+    for (std::size_t begin = 0; begin < patches_.size(); begin += together) {
+      const std::size_t some = std::min(together, patches_.size() - begin);
+      parallel_for(some, [&](std::size_t i) {
+        check_interruption();
+        assemble_block(x, wanted, patches_[begin + i], lanes, blocks[i]);
+      });
+      parallel_for(wanted.rows.size(), [&](std::size_t row) {
+        for (std::size_t i = 0; i < some; ++i)
+          add_block_row(patches_[begin + i], blocks[i], row, wanted.rows[row], rows);
+      });
+    }
   }
 }
 
 template <class T>
-void GalerkinAssembler::sum_dynamic(int tx, int ty, const LaneTable<T>& lanes, PairBatch& batch,
-                                    PairScratch<T>& scratch, const PairSums<T>& sums) const {
+void GalerkinAssembler::add_block_row(const SurfacePatch& y, const Block<T>& block,
+                                      std::size_t from_row, int row, GalerkinRows<T>& rows) const {
+  const std::size_t stride = rows.padded_lanes, size = 9 * stride;
+  const auto add = [&](const AlignedVector<T>& from, const std::vector<int>& nodes,
+                       AlignedVector<T>& to) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const T* a = &from[(from_row * nodes.size() + k) * size];
+      T* b = &to[(std::size_t(row) * rows.nodes + nodes[k]) * size];
+      for (std::size_t e = 0; e < size; ++e) b[e] += a[e];
+    }
+  };
+  add(block.inertia, y.nodes, rows.inertia);
+  add(block.adjoint, y.hats, rows.adjoint);
+  for (std::size_t e = 0; e < 18 * stride; ++e)
+    rows.strain[row * 18 * stride + e] += block.strain[from_row * 18 * stride + e];
+  const auto add_static = [&](const Entries& from, const std::vector<int>& nodes,
+                              Eigen::MatrixXd& to) {
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      for (int e = 0; e < 9; ++e)
+        to(3 * row + e / 3, 3 * nodes[k] + e % 3) +=
+            from[e](static_cast<Eigen::Index>(from_row), static_cast<Eigen::Index>(k));
+  };
+  add_static(block.static_h, y.nodes, rows.static_h);
+  add_static(block.static_g, y.hats, rows.static_g);
+}
+
+void GalerkinAssembler::add_mass(int first, int last, Eigen::MatrixXd& g) const {
+  for (std::size_t t = 0; t < bases_.size(); ++t) {
+    const PairTractions mass = mass_matrix(quadrature_.area(static_cast<int>(t)));
+    for (std::size_t k = 0; k < bases_[t].vertices.size(); ++k) {
+      const int node = bases_[t].vertices[k];
+      if (node < first || node >= last) continue;
+      for (int j = 0; j < 3; ++j) {
+        double sum = 0;
+        for (int a = 0; a < kShapes; ++a) sum += bases_[t].weights[k][a] * mass(3 * a, 3 * j);
+        g.block<3, 3>(3 * (node - first), 3 * mesh_.triangles[t][j]) +=
+            0.5 * sum * Mat3::Identity();
+      }
+    }
+  }
+}
+
+PairScales GalerkinAssembler::scales() const {
   const Material& m = discretisation_.material;
-  const PairScales scales{m.density, m.kappa(), 1 / (m.shear_speed() * discretisation_.dt),
-                          quadrature_.normal(tx), quadrature_.normal(ty)};
+  return {m.density, m.kappa(), 1 / (m.shear_speed() * discretisation_.dt)};
+}
+
+/// Tractions of uniform strain e are 2 mu e n + lambda tr(e) n, where lambda kappa is finite: what
+/// pressure_kernel() is multiplied by.
+Vector6 GalerkinAssembler::pressure_of_strain() const {
+  const Material& m = discretisation_.material;
+  return m.shear_modulus * m.poisson_ratio / (1 - m.poisson_ratio) *
+         symmetric_entries(Mat3::Identity());
+}
+
+template <class T>
+void GalerkinAssembler::sum_pair(int tx, int ty, const LaneTable<T>& lanes, PairBatch& batch,
+                                 PairScratch<T>& scratch, const PairSums<T>& sums) const {
   const auto consume = [&](const PairBatch& b) {
-    accumulate_pair(lanes, scales, b, scratch, sums);
+    accumulate_pair(lanes, scales(), quadrature_.normal(tx), quadrature_.normal(ty), b, scratch,
+                    sums);
   };
   FibreCollector fibres(batch, consume);
   quadrature_.for_each_point(tx, ty, KernelPart::dynamic_part, [&](const PairPoint& p) {
@@ -235,97 +199,150 @@ void GalerkinAssembler::sum_dynamic(int tx, int ty, const LaneTable<T>& lanes, P
   fibres.finish();
 }
 
-/// The sums of a triangle of x with all triangles of a cluster.
+/// The dynamic sums of two patches by the shapes of both, pair by pair of triangles.
 template <class T>
-void GalerkinAssembler::sum_cluster(int tx, const Cluster& cluster, const LaneTable<T>& lanes,
-                                    Workspace<T>& work) const {
-  const Material& m = discretisation_.material;
-  const std::size_t stride = lanes.padded_lanes, part = 9 * kShapes * stride;
-  // tractions of uniform strain e: 2 mu e n + lambda tr(e) n, where lambda kappa is finite
-  const Vector6 pressure = m.shear_modulus * m.poisson_ratio / (1 - m.poisson_ratio) *
-                           symmetric_entries(Mat3::Identity());
-  set_zero(work.inertia, cluster.shape_count() * part);
-  set_zero(work.adjoint, cluster.hats.size() * part);
-  set_zero(work.strain, 18 * kShapes * stride);
-  work.static_h = Eigen::MatrixXd::Zero(18, 3 * cluster.shape_count());
-  work.static_g = Eigen::MatrixXd::Zero(18, static_cast<Eigen::Index>(3 * cluster.hats.size()));
-  for (int t = cluster.begin; t < cluster.end; ++t) {
-    const std::array<int, 6>& shapes = cluster.shapes[t - cluster.begin];
-    PairSums<T> sums;
-    for (int j = 0; j < kShapes; ++j) sums.inertia[j] = &work.inertia[shapes[j] * part];
-    for (int j = 0; j < 3; ++j) sums.adjoint[j] = &work.adjoint[shapes[j] * part];
-    set_zero(work.uniform, PairSums<T>::kUniform * kShapes * stride);
-    sums.uniform = work.uniform.data();
-    sum_dynamic(tx, t, lanes, work.batch, work.scratch, sums);
-    add_strain(sums.uniform, lanes.padded_lanes,
-               2 * m.shear_modulus * symmetric_products(quadrature_.normal(t)), pressure,
-               work.strain.data());
-    PairMatrix form = PairMatrix::Zero();
-    PairTractions adjoint = PairTractions::Zero();
-    add_static_pair(quadrature_, m.shear_modulus, m.kappa(), tx, t, form, adjoint);
-    for (int j = 0; j < kShapes; ++j)
-      work.static_h.template middleCols<3>(3 * shapes[j]) += form.middleCols<3>(3 * j);
-    for (int j = 0; j < 3; ++j)
-      work.static_g.template middleCols<3>(3 * shapes[j]) -= adjoint.middleCols<3>(3 * j);
+void GalerkinAssembler::sum_by_shapes(const SurfacePatch& x, const SurfacePatch& y,
+                                      const LaneTable<T>& lanes, Block<T>& block) const {
+  const std::size_t stride = lanes.padded_lanes, entry = 9 * stride, hats = y.hats.size();
+  set_zero(block.own_inertia, x.shape_count * y.shape_count * entry);
+  set_zero(block.own_adjoint, x.shape_count * hats * entry);
+  set_zero(block.own_strain, x.shape_count * 18 * stride);
+  for (std::size_t i = 0; i < x.triangles.size(); ++i)
+    for (std::size_t k = 0; k < y.triangles.size(); ++k) {
+      set_zero(block.uniform, PairSums<T>::kUniform * kShapes * stride);
+      PairSums<T> sums;
+      for (int a = 0; a < kShapes; ++a) {
+        const std::size_t shape = x.shapes[i][a];
+        for (int b = 0; b < kShapes; ++b)
+          sums.inertia[b][a] = &block.own_inertia[(shape * y.shape_count + y.shapes[k][b]) * entry];
+        for (int b = 0; b < 3; ++b)
+          sums.adjoint[b][a] = &block.own_adjoint[(shape * hats + y.shapes[k][b]) * entry];
+        sums.uniform[a] = &block.uniform[a * PairSums<T>::kUniform * stride];
+      }
+      sum_pair(x.triangles[i], y.triangles[k], lanes, block.pair_batch, block.scratch, sums);
+      const Eigen::Matrix<double, 3, 6> tractions =
+          2 * discretisation_.material.shear_modulus *
+          symmetric_products(quadrature_.normal(y.triangles[k]));
+      for (int a = 0; a < kShapes; ++a)
+        add_strain(sums.uniform[a], lanes.padded_lanes, tractions, pressure_of_strain(),
+                   &block.own_strain[x.shapes[i][a] * 18 * stride]);
+    }
+}
+
+/// The dynamic sums of two distant patches by the midpoints of both.
+template <class T>
+void GalerkinAssembler::sum_by_midpoints(const SurfacePatch& x, const SurfacePatch& y,
+                                         const LaneTable<T>& lanes, Block<T>& block) const {
+  const std::size_t stride = lanes.padded_lanes, entry = 9 * stride;
+  const std::size_t from = x.midpoints.size(), to = y.midpoints.size();
+  block.own_inertia.resize(from * to * entry);
+  block.own_adjoint.resize(from * to * entry);
+  set_zero(block.own_strain, from * 18 * stride);
+  block.uniform.resize(MidpointSums<T>::kUniform * stride);
+  MidpointBatch& batch = block.midpoint_batch;
+  batch.size = static_cast<int>(to);
+  for (std::size_t i = 0; i < from; ++i) {
+    for (int q = 0; q < batch.padded_size(); ++q) {
+      const SurfacePatch::Midpoint& p = y.midpoints[q < batch.size ? q : 0];
+      for (int k = 0; k < 3; ++k) {
+        batch.r[k][q] = p.place[k] - x.midpoints[i].place[k];
+        batch.n[k][q] = p.normal[k];
+      }
+      batch.area[q] = p.area;
+    }
+    const MidpointSums<T> sums = {&block.own_inertia[i * to * entry],
+                                  &block.own_adjoint[i * to * entry], block.uniform.data()};
+    evaluate_midpoints(lanes, scales(), x.midpoints[i].normal, batch, block.scratch, sums);
+    add_strain_of_midpoints(sums.uniform, lanes.padded_lanes, &block.own_strain[i * 18 * stride]);
   }
 }
 
-/// Combines the sums by shapes of y to those by nodes of the cluster.
+/// The tractions of uniform strain are linear in the normal.
 template <class T>
-void GalerkinAssembler::combine_columns(const Cluster& cluster, std::size_t part,
-                                        Workspace<T>& work) const {
-  set_zero(work.by_node, cluster.nodes.size() * part);
-  work.static_by_node =
-      Eigen::MatrixXd::Zero(18, static_cast<Eigen::Index>(3 * cluster.nodes.size()));
-  const auto add = [&](std::size_t shape, int node, double factor) {
-    add_scaled(static_cast<T>(factor), &work.inertia[shape * part], &work.by_node[node * part],
-               part);
-    work.static_by_node.template middleCols<3>(3 * node) +=
-        factor * work.static_h.template middleCols<3>(static_cast<Eigen::Index>(3 * shape));
-  };
-  for (std::size_t i = 0; i < cluster.hats.size(); ++i) add(i, cluster.hats[i], 1);
-  for (std::size_t i = 0; i < cluster.bubbles.size(); ++i)
-    for (const auto& [node, rho] : cluster.bubbles[i]) add(cluster.hats.size() + i, node, rho);
+void GalerkinAssembler::add_strain_of_midpoints(const T* uniform, int padded_lanes, T* out) const {
+  const Vector6 pressure = pressure_of_strain();
+  const std::size_t stride = padded_lanes;
+  for (int i = 0; i < 3; ++i)
+    for (int c = 0; c < 6; ++c) {
+      T* to = out + (6 * i + c) * stride;
+      const auto add = [&](double factor, int entry) {
+        if (factor == 0) return;
+        const T* from = uniform + entry * stride;
+        for (std::size_t lane = 0; lane < stride; ++lane)
+          to[lane] += static_cast<T>(factor) * from[lane];
+      };
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Matrix<double, 3, 6> tractions =
+            2 * discretisation_.material.shear_modulus * symmetric_products(Vec3::Unit(k));
+        for (int l = 0; l < 3; ++l) add(tractions(l, c), 9 * i + 3 * l + k);
+      }
+      add(pressure[c], 27 + i);
+    }
+}
+
+void GalerkinAssembler::sum_static(const SurfacePatch& x, const SurfacePatch& y,
+                                   std::array<Eigen::MatrixXd, 9>& h,
+                                   std::array<Eigen::MatrixXd, 9>& g) const {
+  const Material& m = discretisation_.material;
+  set_zero(h, x.shape_count, y.shape_count);
+  set_zero(g, x.shape_count, static_cast<Eigen::Index>(y.hats.size()));
+  for (std::size_t i = 0; i < x.triangles.size(); ++i)
+    for (std::size_t k = 0; k < y.triangles.size(); ++k) {
+      PairMatrix form = PairMatrix::Zero();
+      PairTractions adjoint = PairTractions::Zero();
+      add_static_pair(quadrature_, m.shear_modulus, m.kappa(), x.triangles[i], y.triangles[k], form,
+                      adjoint);
+      for (int e = 0; e < 9; ++e)
+        for (int a = 0; a < kShapes; ++a) {
+          const int row = 3 * a + e / 3;
+          for (int b = 0; b < kShapes; ++b)
+            h[e](x.shapes[i][a], y.shapes[k][b]) += form(row, 3 * b + e % 3);
+          for (int b = 0; b < 3; ++b)
+            g[e](x.shapes[i][a], y.shapes[k][b]) -= adjoint(row, 3 * b + e % 3);
+        }
+    }
 }
 
 template <class T>
-void GalerkinAssembler::assemble_block(const std::vector<RowTriangle>& triangles, int row_count,
-                                       const Cluster& cluster, const LaneTable<T>& lanes,
+void GalerkinAssembler::assemble_block(const SurfacePatch& x, const PatchRows& wanted,
+                                       const SurfacePatch& y, const LaneTable<T>& lanes,
                                        Block<T>& block) const {
-  const std::size_t stride = lanes.padded_lanes, columns = cluster.nodes.size();
-  const std::size_t part = 9 * kShapes * stride;
-  set_zero(block.inertia, row_count * columns * 9 * stride);
-  set_zero(block.adjoint, row_count * columns * 9 * stride);
-  set_zero(block.strain, std::size_t(row_count) * 18 * stride);
-  block.static_h = block.static_g =
-      Eigen::MatrixXd::Zero(3 * row_count, static_cast<Eigen::Index>(3 * columns));
-  Workspace<T> work;
-  for (const RowTriangle& r : triangles) {
-    sum_cluster(r.triangle, cluster, lanes, work);
-    combine_columns(cluster, part, work);
-    for (std::size_t k = 0; k < r.rows.size(); ++k) {
-      T weights[kShapes];
-      std::copy(r.weights[k].begin(), r.weights[k].end(), weights);
-      const std::size_t first = r.rows[k] * columns;
-      for (std::size_t j = 0; j < columns; ++j)
-        combine_shapes(weights, &work.by_node[j * part], 9, lanes.padded_lanes,
-                       &block.inertia[(first + j) * 9 * stride]);
-      for (std::size_t i = 0; i < cluster.hats.size(); ++i)
-        combine_shapes(weights, &work.adjoint[i * part], 9, lanes.padded_lanes,
-                       &block.adjoint[(first + cluster.hats[i]) * 9 * stride]);
-      combine_shapes(weights, work.strain.data(), 18, lanes.padded_lanes,
-                     &block.strain[r.rows[k] * 18 * stride]);
-      const Eigen::Index row = 3 * r.rows[k];
-      for (int a = 0; a < kShapes; ++a) {
-        const double w = r.weights[k][a];
-        if (w == 0) continue;
-        block.static_h.template middleRows<3>(row) +=
-            w * work.static_by_node.template middleRows<3>(3 * a);
-        for (std::size_t i = 0; i < cluster.hats.size(); ++i)
-          block.static_g.template block<3, 3>(row, 3 * cluster.hats[i]) +=
-              w * work.static_g.template block<3, 3>(3 * a, static_cast<Eigen::Index>(3 * i));
-      }
-    }
+  const std::size_t stride = lanes.padded_lanes, entry = 9 * stride;
+  const std::size_t rows = wanted.rows.size(), nodes = y.nodes.size(), hats = y.hats.size();
+  const bool far =
+      quadrature_.midpoints_suffice(patch_distance(x, y), std::max(x.longest_edge, y.longest_edge));
+  if (far)
+    sum_by_midpoints(x, y, lanes, block);
+  else
+    sum_by_shapes(x, y, lanes, block);
+  const std::size_t own_x = far ? x.midpoints.size() : x.shape_count;
+  const std::size_t own_y = far ? y.midpoints.size() : y.shape_count;
+  const SparseRows& of_rows = far ? wanted.midpoints : wanted.shapes;
+
+  block.inertia.resize(rows * nodes * entry);
+  block.adjoint.resize(rows * hats * entry);
+  block.strain.resize(rows * 18 * stride);
+  block.by_node.resize(own_x * nodes * entry);
+  for (std::size_t i = 0; i < own_x; ++i)
+    combine_rows(far ? y.displacements_at : y.displacements, &block.own_inertia[i * own_y * entry],
+                 entry, &block.by_node[i * nodes * entry]);
+  combine_rows(of_rows, block.by_node.data(), nodes * entry, block.inertia.data());
+  if (far) {
+    block.by_node.resize(own_x * hats * entry);
+    for (std::size_t i = 0; i < own_x; ++i)
+      combine_rows(y.tractions_at, &block.own_adjoint[i * own_y * entry], entry,
+                   &block.by_node[i * hats * entry]);
+    combine_rows(of_rows, block.by_node.data(), hats * entry, block.adjoint.data());
+  } else {
+    combine_rows(of_rows, block.own_adjoint.data(), hats * entry, block.adjoint.data());
+  }
+  combine_rows(of_rows, block.own_strain.data(), 18 * stride, block.strain.data());
+
+  sum_static(x, y, block.own_static_h, block.own_static_g);
+  const Eigen::MatrixXd of_y = y.displacements.dense(y.shape_count).transpose();
+  for (int e = 0; e < 9; ++e) {
+    block.static_h[e] = wanted.dense_shapes * (block.own_static_h[e] * of_y);
+    block.static_g[e] = wanted.dense_shapes * block.own_static_g[e];
   }
 }
 
@@ -341,10 +358,10 @@ void GalerkinAssembler::sum_loads(int tx, const std::vector<PanelLoad>& loads,
                                   const LaneTable<T>& lanes, LoadPart<T>& part) const {
   const Material& m = discretisation_.material;
   const Eigen::Index cases = loads.at(0).traction.cols();
-  const std::size_t shapes = kShapes * static_cast<std::size_t>(lanes.padded_lanes);
-  Workspace<T> work;
+  const std::size_t stride = lanes.padded_lanes;
+  Block<T> block;
   part.rest = Eigen::MatrixXd::Zero(18, cases);
-  set_zero(part.dynamic, 3 * cases * shapes);
+  set_zero(part.dynamic, 3 * cases * kShapes * stride);
   for (const PanelLoad& load : loads) {
     check_interruption();
     Eigen::Matrix<double, 9, Eigen::Dynamic> corners(9, cases);
@@ -355,17 +372,25 @@ void GalerkinAssembler::sum_loads(int tx, const std::vector<PanelLoad>& loads,
     add_static_pair(quadrature_, m.shear_modulus, m.kappa(), tx, load.triangle, unused, adjoint);
     part.rest -= adjoint * corners;
     if (load.triangle == tx) part.rest += 0.5 * mass_matrix(quadrature_.area(tx)) * corners;
-    set_zero(work.adjoint, 27 * shapes);
-    set_zero(work.uniform, PairSums<T>::kUniform * shapes);
+    set_zero(block.own_adjoint, 3 * kShapes * 9 * stride);
+    set_zero(block.uniform, PairSums<T>::kUniform * kShapes * stride);
     PairSums<T> sums{};
-    for (int b = 0; b < 3; ++b) sums.adjoint[b] = &work.adjoint[9 * b * shapes];
-    sums.uniform = work.uniform.data();
-    sum_dynamic(tx, load.triangle, lanes, work.batch, work.scratch, sums);
-    const T* kernel = load.corner ? sums.adjoint[*load.corner] : sums.uniform;
-    for (Eigen::Index c = 0; c < cases; ++c)
-      for (int e = 0; e < 9; ++e)
-        add_scaled(static_cast<T>(load.traction(e % 3, c)), kernel + e * shapes,
-                   &part.dynamic[(3 * c + e / 3) * shapes], shapes);
+    for (int a = 0; a < kShapes; ++a) {
+      for (int b = 0; b < 3; ++b)
+        sums.adjoint[b][a] = &block.own_adjoint[(kShapes * b + a) * 9 * stride];
+      sums.uniform[a] = &block.uniform[a * PairSums<T>::kUniform * stride];
+    }
+    sum_pair(tx, load.triangle, lanes, block.pair_batch, block.scratch, sums);
+    for (int a = 0; a < kShapes; ++a) {
+      const T* kernel = load.corner ? sums.adjoint[*load.corner][a] : sums.uniform[a];
+      for (Eigen::Index c = 0; c < cases; ++c)
+        for (int e = 0; e < 9; ++e) {
+          const T factor = static_cast<T>(load.traction(e % 3, c));
+          T* to = &part.dynamic[((3 * c + e / 3) * kShapes + a) * stride];
+          for (std::size_t lane = 0; lane < stride; ++lane)
+            to[lane] += factor * kernel[e * stride + lane];
+        }
+    }
   }
 }
 

@@ -52,35 +52,44 @@ class GalerkinAssembler {
   const EdgeReconstruction& reconstruction() const { return reconstruction_; }
 
  private:
-  struct Cluster;
-  struct RowTriangle;
+  struct PatchRows;
   template <class T>
   struct Block;
-  template <class T>
-  struct Workspace;
   template <class T>
   struct LoadPart;
 
   template <class T>
   void assemble_rows(int first, int last, const LaneTable<T>& lanes, GalerkinRows<T>& rows) const;
   template <class T>
-  void assemble_block(const std::vector<RowTriangle>& triangles, int row_count,
-                      const Cluster& cluster, const LaneTable<T>& lanes, Block<T>& block) const;
+  void assemble_block(const SurfacePatch& x, const PatchRows& wanted, const SurfacePatch& y,
+                      const LaneTable<T>& lanes, Block<T>& block) const;
   template <class T>
-  void sum_dynamic(int tx, int ty, const LaneTable<T>& lanes, PairBatch& batch,
-                   PairScratch<T>& scratch, const PairSums<T>& sums) const;
+  void add_block_row(const SurfacePatch& y, const Block<T>& block, std::size_t from_row, int row,
+                     GalerkinRows<T>& rows) const;
+  void add_mass(int first, int last, Eigen::MatrixXd& g) const;
+
   template <class T>
-  void sum_cluster(int tx, const Cluster& cluster, const LaneTable<T>& lanes,
-                   Workspace<T>& work) const;
+  void sum_pair(int tx, int ty, const LaneTable<T>& lanes, PairBatch& batch,
+                PairScratch<T>& scratch, const PairSums<T>& sums) const;
   template <class T>
-  void combine_columns(const Cluster& cluster, std::size_t part, Workspace<T>& work) const;
+  void sum_by_shapes(const SurfacePatch& x, const SurfacePatch& y, const LaneTable<T>& lanes,
+                     Block<T>& block) const;
+  template <class T>
+  void sum_by_midpoints(const SurfacePatch& x, const SurfacePatch& y, const LaneTable<T>& lanes,
+                        Block<T>& block) const;
+  template <class T>
+  void add_strain_of_midpoints(const T* uniform, int padded_lanes, T* out) const;
+  void sum_static(const SurfacePatch& x, const SurfacePatch& y, std::array<Eigen::MatrixXd, 9>& h,
+                  std::array<Eigen::MatrixXd, 9>& g) const;
+  PairScales scales() const;
+  Vector6 pressure_of_strain() const;
+
   template <class T>
   void sum_loads(int tx, const std::vector<PanelLoad>& loads, const LaneTable<T>& lanes,
                  LoadPart<T>& part) const;
   template <class T>
   std::vector<Eigen::MatrixXd> assemble_loads(const std::vector<PanelLoad>& loads,
                                               const LaneTable<T>& lanes) const;
-  void add_mass(const std::vector<RowTriangle>& triangles, Eigen::MatrixXd& g) const;
 
   const TriangleMesh& mesh_;
   Discretisation discretisation_;
@@ -89,7 +98,7 @@ class GalerkinAssembler {
   PairQuadrature quadrature_;
   EdgeReconstruction reconstruction_;
   std::vector<TriangleBasis> bases_;
-  std::vector<Cluster> clusters_;
+  std::vector<SurfacePatch> patches_;
 };
 
 }  // namespace bem

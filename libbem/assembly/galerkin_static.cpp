@@ -38,18 +38,79 @@ struct Moments {
   }
 };
 
+/// Products of shape functions at the points of products of triangle rules, weights included.
+class ProductShapes {
+ public:
+  ProductShapes() {
+    const auto& rules = triangle_rules();
+    for (int x = 0; x < kTriangleRuleCount; ++x)
+      for (int y = 0; y < kTriangleRuleCount; ++y) {
+        std::vector<Shapes>& table = tables_[x][y];
+        for (int i = 0; i < rules[x].size; ++i)
+          for (int j = 0; j < rules[y].size; ++j) {
+            const TrianglePoint &p = rules[x].points[i], &q = rules[y].points[j];
+            set_shapes(p.barycentric, q.barycentric, p.weight * q.weight,
+                       table.emplace_back().values);
+          }
+      }
+  }
+  const double (*at(int x, int y, int point) const)[StaticBatch::kShapes] {
+    return &tables_[x][y][point].values;
+  }
+
+ private:
+  struct alignas(64) Shapes {
+    double values[StaticBatch::kShapes];
+  };
+  std::vector<Shapes> tables_[kTriangleRuleCount][kTriangleRuleCount];
+};
+
+/// Sums over the points of a product of triangle rules.
+StaticSums product_sums(const PairQuadrature& quadrature, const StaticTraction& traction, int tx,
+                        int ty, const std::array<int, 2>& rules) {
+  static const ProductShapes shapes;
+  const TriangleRule &of_x = triangle_rules()[rules[0]], &of_y = triangle_rules()[rules[1]];
+  Vec3 y[kMaxRulePoints];
+  for (int j = 0; j < of_y.size; ++j) y[j] = quadrature.position(ty, of_y.points[j].barycentric);
+  StaticSums sums;
+  StaticBatch batch;
+  int done = 0;
+  const auto flush = [&] {
+    batch.shapes = shapes.at(rules[0], rules[1], done);
+    accumulate_static(quadrature.normal(tx), traction, batch, sums);
+    done += batch.size;
+    batch.size = 0;
+  };
+  for (int i = 0; i < of_x.size; ++i) {
+    const Vec3 x = quadrature.position(tx, of_x.points[i].barycentric);
+    for (int j = 0; j < of_y.size; ++j) {
+      batch.add(y[j] - x);
+      if (batch.size == StaticBatch::kCapacity) flush();
+    }
+  }
+  if (batch.size > 0) flush();
+  const double areas = quadrature.area(tx) * quadrature.area(ty);
+  for (auto& row : sums.values)
+    for (double& value : row) value *= areas;
+  return sums;
+}
+
 /// The static sums over the points of a pair.
 StaticSums static_sums(const PairQuadrature& quadrature, double kappa, int tx, int ty) {
   const StaticTraction traction(kappa);
+  if (const auto rules = quadrature.product_rules(tx, ty, KernelPart::static_part))
+    return product_sums(quadrature, traction, tx, ty, *rules);
   StaticSums sums;
   StaticBatch batch;
+  alignas(64) double shapes[StaticBatch::kCapacity][StaticBatch::kShapes];
+  batch.shapes = shapes;
   const auto flush = [&] {
     accumulate_static(quadrature.normal(tx), traction, batch, sums);
     batch.size = 0;
   };
   quadrature.for_each_point(tx, ty, KernelPart::static_part, [&](const PairPoint& p) {
-    batch.add(quadrature.position(ty, p.y) - quadrature.position(tx, p.x),
-              quadratic_shapes(p.x).data(), p.y, p.weight);
+    set_shapes(p.x, p.y, p.weight, shapes[batch.size]);
+    batch.add(quadrature.position(ty, p.y) - quadrature.position(tx, p.x));
     if (batch.size == StaticBatch::kCapacity) flush();
   });
   if (batch.size > 0) flush();

@@ -16,6 +16,21 @@ namespace bem {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+template <class T>
+using WholeVector = hn::CappedTag<T, 64 / sizeof(T)>;
+
+/// f(tag, lane) for all lanes, vector by vector, of which the last one may be half as wide.
+template <class T, class F>
+HWY_INLINE void ForLanes(std::size_t padded_lanes, const F& f) {
+  const WholeVector<T> d;
+  std::size_t lane = 0;
+  for (; lane + hn::Lanes(d) <= padded_lanes; lane += hn::Lanes(d)) f(d, lane);
+  if constexpr (sizeof(T) == sizeof(float)) {
+    const hn::CappedTag<T, LaneTable<T>::kLanePadding> rest;
+    for (; lane < padded_lanes; lane += hn::Lanes(rest)) f(rest, lane);
+  }
+}
+
 template <class D>
 HWY_INLINE hn::Vec<D> LoadPoints(D d, const double* HWY_RESTRICT from) {
   if constexpr (std::is_same_v<hn::TFromD<D>, double>) {
@@ -51,14 +66,14 @@ HWY_INLINE void AccumulateRows(D d, const T (*weight)[row_size], int size,
   using V = hn::Vec<D>;
   V sum[n];
 #pragma GCC unroll 16
-  for (int i = 0; i < n; ++i) sum[i] = hn::Load(d, sums + i * stride);
+  for (int i = 0; i < n; ++i) sum[i] = hn::LoadU(d, sums + i * stride);
   for (int q = 0; q < size; ++q) {
     const V value = hn::Load(d, values + q * hn::Lanes(d));
 #pragma GCC unroll 16
     for (int i = 0; i < n; ++i) sum[i] = hn::MulAdd(hn::Set(d, weight[i][q]), value, sum[i]);
   }
 #pragma GCC unroll 16
-  for (int i = 0; i < n; ++i) hn::Store(sum[i], d, sums + i * stride);
+  for (int i = 0; i < n; ++i) hn::StoreU(sum[i], d, sums + i * stride);
 }
 
 }  // namespace HWY_NAMESPACE

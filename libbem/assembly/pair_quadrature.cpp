@@ -109,7 +109,7 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
   }
   for (int x = 0; x < kTriangleRuleCount; ++x)
     for (int y = 0; y < kTriangleRuleCount; ++y)
-      product_rules_[x][y] = product_rule(triangle_rules()[x], triangle_rules()[y]);
+      products_[x][y] = product_rule(triangle_rules()[x], triangle_rules()[y]);
   const int radial =
       kDynamicRadial + std::min(kMostForWaves, static_cast<int>(0.4 * longest_wave()));
   for (const Adjacency adjacency : {Adjacency::vertex, Adjacency::edge, Adjacency::identical})
@@ -120,6 +120,11 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
         static_rules_[{adjacency, n}] = touching_rule(adjacency, n, kStaticRadial);
         dynamic_rules_[{adjacency, m}] = touching_rule(adjacency, m, radial);
       }
+}
+
+bool PairQuadrature::midpoints_suffice(double distance, double longest_edge) const {
+  const int rule = dynamic_choice_.choose(distance / longest_edge, wave_number_ * longest_edge);
+  return rule >= 0 && triangle_rules()[rule].degree <= 2;
 }
 
 /// |s| h/c2 of the longest edge.
@@ -165,9 +170,16 @@ const std::vector<PairPoint>& PairQuadrature::touching_points(int tx, int ty, Ad
   return rules.at({adjacency, touching_order(tx, ty, adjacency, part)});
 }
 
-/// The points of a pair whose triangles need not be split; null if they do. Far from each other a
-/// lower bound of the distance is enough to know it.
-const std::vector<PairPoint>* PairQuadrature::unsplit_rule(int tx, int ty, KernelPart part) const {
+std::optional<std::array<int, 2>> PairQuadrature::product_rules(int tx, int ty,
+                                                                KernelPart part) const {
+  if (pair(tx, ty).adjacency != Adjacency::none) return std::nullopt;
+  return unsplit_rules(tx, ty, part);
+}
+
+/// The rules of a pair that does not touch. Far from each other a lower bound of the distance is
+/// enough to know them.
+std::optional<std::array<int, 2>> PairQuadrature::unsplit_rules(int tx, int ty,
+                                                                KernelPart part) const {
   constexpr double kFar = 3;  // of the longest edge
   const Panel &x = panels_[tx], &y = panels_[ty];
   double distance = (x.centre - y.centre).norm() - x.radius - y.radius;
@@ -186,7 +198,8 @@ const std::vector<PairPoint>* PairQuadrature::unsplit_rule(int tx, int ty, Kerne
     return choice.choose(distance / p.longest_edge, wave_number * p.longest_edge);
   };
   const int rule_x = rule_of(x), rule_y = rule_of(y);
-  return rule_x < 0 || rule_y < 0 ? nullptr : &product_rules_[rule_x][rule_y];
+  if (rule_x < 0 || rule_y < 0) return std::nullopt;
+  return std::array<int, 2>{rule_x, rule_y};
 }
 
 void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
@@ -219,7 +232,7 @@ void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
                          task.depth + 1});
       continue;
     }
-    for (const PairPoint& own : product_rules_[rule_x][rule_y]) {
+    for (const PairPoint& own : products_[rule_x][rule_y]) {
       PairPoint p;
       p.weight = task.x.part * task.y.part * own.weight;
       for (int a = 0; a < 3; ++a) {

@@ -5,6 +5,7 @@
 #include "quadrature/touching_triangles.hpp"
 
 #include <map>
+#include <optional>
 
 namespace bem {
 
@@ -34,8 +35,8 @@ class PairQuadrature {
     };
     const Pairing pairing = pair(tx, ty);
     if (pairing.adjacency == Adjacency::none) {
-      if (const std::vector<PairPoint>* rule = unsplit_rule(tx, ty, part)) {
-        for (PairPoint p : *rule) give(p);
+      if (const auto rules = unsplit_rules(tx, ty, part)) {
+        for (PairPoint p : products_[(*rules)[0]][(*rules)[1]]) give(p);
         return;
       }
       std::vector<PairPoint> points;
@@ -53,6 +54,14 @@ class PairQuadrature {
       give(own);
     }
   }
+
+  /// The triangle rules, by number, of which the points of a pair are the product; none if the
+  /// triangles touch or have to be split.
+  std::optional<std::array<int, 2>> product_rules(int tx, int ty, KernelPart part) const;
+
+  /// Whether a rule of degree 2 is enough for the dynamic parts of triangles with edges of at most
+  /// `longest_edge` at such a distance [m].
+  bool midpoints_suffice(double distance, double longest_edge) const;
 
   Vec3 position(int triangle, const double* l) const {
     const Triangle& t = mesh_.triangles[triangle];
@@ -76,7 +85,7 @@ class PairQuadrature {
   Pairing pair(int tx, int ty) const;
   const std::vector<PairPoint>& touching_points(int tx, int ty, Adjacency adjacency,
                                                 KernelPart part) const;
-  const std::vector<PairPoint>* unsplit_rule(int tx, int ty, KernelPart part) const;
+  std::optional<std::array<int, 2>> unsplit_rules(int tx, int ty, KernelPart part) const;
   double longest_wave() const;
   int touching_order(int tx, int ty, Adjacency adjacency, KernelPart part) const;
   void add_separated(int tx, int ty, KernelPart part, std::vector<PairPoint>& out) const;
@@ -89,7 +98,7 @@ class PairQuadrature {
   using Rules = std::map<std::pair<Adjacency, int>, std::vector<PairPoint>>;
   Rules static_rules_, dynamic_rules_;
   /// Products of triangle rules, [rule of x][rule of y].
-  std::vector<PairPoint> product_rules_[kTriangleRuleCount][kTriangleRuleCount];
+  std::vector<PairPoint> products_[kTriangleRuleCount][kTriangleRuleCount];
 };
 
 /// Distance of two triangles that do not touch [m].

@@ -30,23 +30,24 @@ enum : int {
 };
 static_assert(kOfDilation + 3 == PairScratch<double>::kCoefficients);
 
-/// Tensor coefficients of all points, lanes over points; also finds the table intervals.
-template <class T>
-void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const PairBatch& batch,
+/// Tensor coefficients of points y seen from one x, lanes over points; also finds the table
+/// intervals. normal(axis, q): of y.
+template <class T, class Normal>
+void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const Vec3& normal_at_x,
+                      const double (*offset)[kPairCapacity], const Normal& normal, int padded_size,
                       PairScratch<T>& scratch) {
   const hn::CappedTag<T, PairBatch::kPadding> d;
   using V = hn::Vec<decltype(d)>;
   const auto set = [&d](double value) { return hn::Set(d, static_cast<T>(value)); };
-  const Vec3 &mv = scales.m, &nv = scales.n;
-  const V m[3] = {set(mv[0]), set(mv[1]), set(mv[2])}, n[3] = {set(nv[0]), set(nv[1]), set(nv[2])};
-  const V mn = set(mv.dot(nv));
+  const V m[3] = {set(normal_at_x[0]), set(normal_at_x[1]), set(normal_at_x[2])};
   const V one = set(1.0);
   const V inertia_scale = set(scales.density / (4 * kPi)), adjoint_scale = set(-1 / (4 * kPi));
   const V normal_part = set(1 - 2 * scales.kappa), other_part = set(2 * scales.kappa);
   alignas(64) T intervals[kPairCapacity];
-  for (int q = 0; q < batch.padded_size(); q += static_cast<int>(hn::Lanes(d))) {
-    const V x = LoadPoints(d, batch.r[0] + q), y = LoadPoints(d, batch.r[1] + q),
-            z = LoadPoints(d, batch.r[2] + q);
+  for (int q = 0; q < padded_size; q += static_cast<int>(hn::Lanes(d))) {
+    const V x = LoadPoints(d, offset[0] + q), y = LoadPoints(d, offset[1] + q),
+            z = LoadPoints(d, offset[2] + q);
+    const V n[3] = {normal(d, 0, q), normal(d, 1, q), normal(d, 2, q)};
     const V r = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
     const V inverse = hn::Div(one, r);
     const V h[3] = {hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse)};
@@ -54,6 +55,7 @@ void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const
       return hn::MulAdd(h[0], v[0], hn::MulAdd(h[1], v[1], hn::Mul(h[2], v[2])));
     };
     const V hm = dot(m), hn_ = dot(n);
+    const V mn = hn::MulAdd(m[0], n[0], hn::MulAdd(m[1], n[1], hn::Mul(m[2], n[2])));
 
     StorePlaces(d, table, r, scales.lam_per_distance, intervals + q, scratch.local + q);
 
@@ -87,36 +89,45 @@ void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const
     const V along_n = hn::Mul(chm, other_part);
     for (int i = 0; i < 3; ++i)
       store(kOfDilation + i, hn::MulAdd(along_m, m[i], hn::Mul(along_n, n[i])));
-
-    for (int a = 0; a < PairBatch::kRows; ++a)
-      hn::Store(LoadPoints(d, batch.moving[a] + q), d, scratch.moving[a] + q);
   }
-  for (int a = 0; a < PairBatch::kRows; ++a)
-    for (int f = 0; f < batch.fibres; ++f)
-      scratch.staying[a][f] = static_cast<T>(batch.staying[a][f]);
-  for (int q = 0; q < batch.padded_size(); ++q)
+  for (int q = 0; q < padded_size; ++q)
     scratch.interval[q] = table.interval(static_cast<int>(intervals[q]));
 }
 
-/// The radial functions at the points of a fibre for a vector of lanes: radial[function][point].
+template <class T>
+void LoadShapes(const PairBatch& batch, PairScratch<T>& scratch) {
+  const hn::CappedTag<T, PairBatch::kPadding> d;
+  for (int q = 0; q < batch.padded_size(); q += static_cast<int>(hn::Lanes(d)))
+    for (int a = 0; a < PairBatch::kRows; ++a)
+      hn::Store(LoadPoints(d, batch.moving[a] + q), d, scratch.moving[a] + q);
+  for (int a = 0; a < PairBatch::kRows; ++a)
+    for (int f = 0; f < batch.fibres; ++f)
+      scratch.staying[a][f] = static_cast<T>(batch.staying[a][f]);
+}
+
+/// The radial functions at one point for a vector of lanes.
 template <class D, class T = hn::TFromD<D>>
-HWY_INLINE void EvaluateRadial(D d, const LaneTable<T>& table, std::size_t lane, int begin, int end,
-                               PairScratch<T>& scratch) {
+HWY_INLINE void EvaluateRadial(D d, std::size_t stride, const T* HWY_RESTRICT c, T local,
+                               hn::Vec<D> (&f)[kHypersingularCount]) {
   constexpr int kNodes = LaneTable<T>::kNodes;
-  using V = hn::Vec<D>;
-  const std::size_t stride = table.padded_lanes;
-  for (int q = begin; q < end; ++q) {
-    const T* HWY_RESTRICT c = scratch.interval[q] + lane;
-    const V t = hn::Set(d, scratch.local[q]);
-    V f[kHypersingularCount];
+  const hn::Vec<D> t = hn::Set(d, local);
+#pragma GCC unroll 9
+  for (int k = 0; k < kHypersingularCount; ++k)
+    f[k] = hn::LoadU(d, c + (k * kNodes + kNodes - 1) * stride);
+#pragma GCC unroll 8
+  for (int degree = kNodes - 2; degree >= 0; --degree)
 #pragma GCC unroll 9
     for (int k = 0; k < kHypersingularCount; ++k)
-      f[k] = hn::Load(d, c + (k * kNodes + kNodes - 1) * stride);
-#pragma GCC unroll 8
-    for (int degree = kNodes - 2; degree >= 0; --degree)
-#pragma GCC unroll 9
-      for (int k = 0; k < kHypersingularCount; ++k)
-        f[k] = hn::MulAdd(f[k], t, hn::Load(d, c + (k * kNodes + degree) * stride));
+      f[k] = hn::MulAdd(f[k], t, hn::LoadU(d, c + (k * kNodes + degree) * stride));
+}
+
+/// The same at the points of a fibre: radial[function][point].
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE void EvaluateFibre(D d, const LaneTable<T>& table, std::size_t lane, int begin, int end,
+                              PairScratch<T>& scratch) {
+  hn::Vec<D> f[kHypersingularCount];
+  for (int q = begin; q < end; ++q) {
+    EvaluateRadial(d, table.padded_lanes, scratch.interval[q] + lane, scratch.local[q], f);
 #pragma GCC unroll 9
     for (int k = 0; k < kHypersingularCount; ++k)
       hn::Store(f[k], d,
@@ -183,16 +194,16 @@ HWY_INLINE void SumTensor(D d, const Tensor& tensor, int first_shape, int begin,
         out + e * shapes * PairBatch::kFibres * hn::Lanes(d));
 }
 
-/// to[i][a] += x[a][f] sums[i][f] over fibres whose x stays, for the six shapes a of x.
+/// to[i][a][at] += x[a][f] sums[i][f] over fibres whose x stays, for the six shapes a of x.
 template <int n, class D, class T = hn::TFromD<D>>
 HWY_INLINE void SpreadOverX(D d, const T (*x)[PairBatch::kFibres], int fibres,
-                            const T* const (&sums)[n], T* const (&to)[n], std::size_t stride) {
+                            const T* const (&sums)[n], T* const* const (&to)[n], std::size_t at) {
   using V = hn::Vec<D>;
   V sum[n][6];
 #pragma GCC unroll 2
   for (int i = 0; i < n; ++i)
 #pragma GCC unroll 6
-    for (int a = 0; a < 6; ++a) sum[i][a] = hn::Load(d, to[i] + a * stride);
+    for (int a = 0; a < 6; ++a) sum[i][a] = hn::LoadU(d, to[i][a] + at);
   for (int f = 0; f < fibres; ++f) {
     V value[n];
 #pragma GCC unroll 2
@@ -207,19 +218,19 @@ HWY_INLINE void SpreadOverX(D d, const T (*x)[PairBatch::kFibres], int fibres,
 #pragma GCC unroll 2
   for (int i = 0; i < n; ++i)
 #pragma GCC unroll 6
-    for (int a = 0; a < 6; ++a) hn::Store(sum[i][a], d, to[i] + a * stride);
+    for (int a = 0; a < 6; ++a) hn::StoreU(sum[i][a], d, to[i][a] + at);
 }
 
-/// to[i][a] += y[i][f] sums[a][f] over fibres whose y stays.
+/// to[i][a][at] += y[i][f] sums[a][f] over fibres whose y stays.
 template <int n, class D, class T = hn::TFromD<D>>
 HWY_INLINE void SpreadOverY(D d, const T* const (&y)[n], int fibres, const T* sums,
-                            T* const (&to)[n], std::size_t stride) {
+                            T* const* const (&to)[n], std::size_t at) {
   using V = hn::Vec<D>;
   V sum[n][6];
 #pragma GCC unroll 2
   for (int i = 0; i < n; ++i)
 #pragma GCC unroll 6
-    for (int a = 0; a < 6; ++a) sum[i][a] = hn::Load(d, to[i] + a * stride);
+    for (int a = 0; a < 6; ++a) sum[i][a] = hn::LoadU(d, to[i][a] + at);
   for (int f = 0; f < fibres; ++f) {
     V weight[n];
 #pragma GCC unroll 2
@@ -234,7 +245,7 @@ HWY_INLINE void SpreadOverY(D d, const T* const (&y)[n], int fibres, const T* su
 #pragma GCC unroll 2
   for (int i = 0; i < n; ++i)
 #pragma GCC unroll 6
-    for (int a = 0; a < 6; ++a) hn::Store(sum[i][a], d, to[i] + a * stride);
+    for (int a = 0; a < 6; ++a) hn::StoreU(sum[i][a], d, to[i][a] + at);
 }
 
 /// One vector of lanes: sums over each fibre first, of the end that moves, then over the fibres.
@@ -242,7 +253,7 @@ template <bool with_inertia, bool x_stays, class D, class T = hn::TFromD<D>>
 HWY_INLINE void AccumulateLanes(D d, std::size_t lane, const LaneTable<T>& table,
                                 const PairBatch& batch, PairScratch<T>& scratch,
                                 const PairSums<T>& sums) {
-  const std::size_t stride = table.padded_lanes, entry = 6 * stride;
+  const std::size_t entry = table.padded_lanes;
   const std::size_t step = PairBatch::kFibres * hn::Lanes(d);
   // of the end that moves: six shapes, of y one and three hats for tractions, one for pressure
   constexpr int kOfAdjoint = x_stays ? 4 : 6, kOfPressure = x_stays ? 1 : 6;
@@ -252,22 +263,23 @@ HWY_INLINE void AccumulateLanes(D d, std::size_t lane, const LaneTable<T>& table
   for (int f = 0; f < batch.fibres; ++f) {
     const int begin = batch.begin[f], end = batch.begin[f + 1];
     const std::size_t at = f * hn::Lanes(d);
-    EvaluateRadial(d, table, lane, begin, end, scratch);
+    EvaluateFibre(d, table, lane, begin, end, scratch);
     if constexpr (with_inertia)
       SumTensor<5, 6>(d, kInertiaTensor, 1, begin, end, scratch, inertia + at);
     SumTensor<3, kOfAdjoint>(d, kAdjointTensor, x_stays ? 0 : 1, begin, end, scratch, adjoint + at);
     SumTensor<1, kOfPressure>(d, kPressureTensor, x_stays ? 0 : 1, begin, end, scratch,
                               pressure + at);
   }
+  const auto at_entry = [&](int e) { return e * entry + lane; };
   const auto spread = [&](int y_first, int y_second, const T* first, std::size_t shapes, int e,
-                          T* to_first, T* to_second) {
-    T* const to[2] = {to_first + e * entry + lane, to_second + e * entry + lane};
+                          T* const* to_first, T* const* to_second) {
+    T* const* const to[2] = {to_first, to_second};
     if constexpr (x_stays) {
       const T* const from[2] = {first + e * shapes * step, first + (e * shapes + 1) * step};
-      SpreadOverX(d, scratch.staying + 1, batch.fibres, from, to, stride);
+      SpreadOverX(d, scratch.staying + 1, batch.fibres, from, to, at_entry(e));
     } else {
       const T* const y[2] = {scratch.staying[y_first], scratch.staying[y_second]};
-      SpreadOverY(d, y, batch.fibres, first + e * shapes * step, to, stride);
+      SpreadOverY(d, y, batch.fibres, first + e * shapes * step, to, at_entry(e));
     }
   };
   // moving shapes of y stand one after another, of x they are all needed for any of y
@@ -280,13 +292,13 @@ HWY_INLINE void AccumulateLanes(D d, std::size_t lane, const LaneTable<T>& table
     spread(2, 3, at_shape(adjoint, 2), kOfAdjoint, e, sums.adjoint[1], sums.adjoint[2]);
   }
   for (int e = 0; e < 3; ++e) {
-    T* const to[1] = {sums.uniform + (9 + e) * entry + lane};
+    T* const* const to[1] = {sums.uniform};
     if constexpr (x_stays) {
       const T* const from[1] = {pressure + e * step};
-      SpreadOverX(d, scratch.staying + 1, batch.fibres, from, to, stride);
+      SpreadOverX(d, scratch.staying + 1, batch.fibres, from, to, at_entry(9 + e));
     } else {
       const T* const y[1] = {scratch.staying[0]};
-      SpreadOverY(d, y, batch.fibres, pressure + 6 * e * step, to, stride);
+      SpreadOverY(d, y, batch.fibres, pressure + 6 * e * step, to, at_entry(9 + e));
     }
   }
 }
@@ -294,104 +306,182 @@ HWY_INLINE void AccumulateLanes(D d, std::size_t lane, const LaneTable<T>& table
 template <bool with_inertia, bool x_stays, class T>
 void AccumulateBatch(const LaneTable<T>& table, const PairBatch& batch, PairScratch<T>& scratch,
                      const PairSums<T>& sums) {
-  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
-  for (std::size_t lane = 0; lane < static_cast<std::size_t>(table.padded_lanes);
-       lane += hn::Lanes(d))
+  ForLanes<T>(table.padded_lanes, [&](auto d, std::size_t lane) {
     AccumulateLanes<with_inertia, x_stays>(d, lane, table, batch, scratch, sums);
+  });
 }
 
 template <class T>
-void AccumulatePair(const LaneTable<T>& table, const PairScales& scales, const PairBatch& batch,
-                    PairScratch<T>& scratch, const PairSums<T>& sums) {
-  PairCoefficients(table, scales, batch, scratch);
+void AccumulatePair(const LaneTable<T>& table, const PairScales& scales, const Vec3& m,
+                    const Vec3& n, const PairBatch& batch, PairScratch<T>& scratch,
+                    const PairSums<T>& sums) {
+  const auto normal = [&n](auto d, int axis, int) { return hn::Set(d, static_cast<T>(n[axis])); };
+  PairCoefficients(table, scales, m, batch.r, normal, batch.padded_size(), scratch);
+  LoadShapes(batch, scratch);
   const auto accumulate =
-      sums.inertia[0]
+      sums.inertia[0][0]
           ? (batch.x_stays ? AccumulateBatch<true, true, T> : AccumulateBatch<true, false, T>)
           : (batch.x_stays ? AccumulateBatch<false, true, T> : AccumulateBatch<false, false, T>);
   accumulate(table, batch, scratch, sums);
 }
 
-template <class T>
-void AddScaled(T factor, const T* HWY_RESTRICT from, T* HWY_RESTRICT to, std::size_t size) {
-  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
-  const auto f = hn::Set(d, factor);
-  for (std::size_t i = 0; i < size; i += hn::Lanes(d))
-    hn::Store(hn::MulAdd(f, hn::Load(d, from + i), hn::Load(d, to + i)), d, to + i);
+/// One vector of lanes of MidpointSums.
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE void EvaluateMidpointLanes(D d, std::size_t lane, const LaneTable<T>& table, int size,
+                                      PairScratch<T>& scratch, const MidpointSums<T>& sums) {
+  using V = hn::Vec<D>;
+  const std::size_t stride = table.padded_lanes;
+  V pressure[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  for (int q = 0; q < size; ++q) {
+    V f[kHypersingularCount];
+    EvaluateRadial(d, stride, scratch.interval[q] + lane, scratch.local[q], f);
+    const auto at = [&](int row) { return hn::Set(d, scratch.coefficient[row][q]); };
+    T* HWY_RESTRICT inertia = sums.inertia + 9 * q * stride + lane;
+    T* HWY_RESTRICT adjoint = sums.adjoint + 9 * q * stride + lane;
+    const V area = hn::Set(d, scratch.moving[0][q]);
+    const V p = hn::Mul(area, f[kDynamicP]), s = hn::Mul(area, f[kDynamicS]),
+            t = hn::Mul(area, f[kDynamicQ]);
+#pragma GCC unroll 9
+    for (int e = 0; e < 9; ++e) {
+      V z = hn::Mul(at(kOfAlpha + e), f[kAlpha]);
+      z = hn::MulAdd(at(kOfBeta + e), f[kBeta], z);
+      z = hn::MulAdd(at(kOfGamma + e), f[kGamma], z);
+      z = hn::MulAdd(at(kOfDelta + e), f[kDelta], z);
+      z = hn::MulAdd(at(kOfEpsilon + e), f[kEpsilon], z);
+      hn::StoreU(z, d, inertia + e * stride);
+      V j = hn::Mul(at(kOfP + e), p);
+      j = hn::MulAdd(at(kOfQ + e), t, j);
+      j = hn::MulAdd(at(kOfS + e), s, j);
+      hn::StoreU(j, d, adjoint + e * stride);
+    }
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i)
+      pressure[i] = hn::MulAdd(at(kOfDilation + i), f[kDilation], pressure[i]);
+  }
+  for (int i = 0; i < 3; ++i) hn::StoreU(pressure[i], d, sums.uniform + (27 + i) * stride + lane);
+  for (int i = 0; i < 3; ++i) {
+    V sum[9];
+#pragma GCC unroll 9
+    for (V& v : sum) v = hn::Zero(d);
+    for (int q = 0; q < size; ++q) {
+      const T* HWY_RESTRICT adjoint = sums.adjoint + (9 * q + 3 * i) * stride + lane;
+#pragma GCC unroll 3
+      for (int l = 0; l < 3; ++l) {
+        const V j = hn::LoadU(d, adjoint + l * stride);
+#pragma GCC unroll 3
+        for (int k = 0; k < 3; ++k)
+          sum[3 * l + k] = hn::MulAdd(j, hn::Set(d, scratch.moving[1 + k][q]), sum[3 * l + k]);
+      }
+    }
+#pragma GCC unroll 9
+    for (int k = 0; k < 9; ++k) hn::StoreU(sum[k], d, sums.uniform + (9 * i + k) * stride + lane);
+  }
 }
 
 template <class T>
-void CombineShapes(const T* HWY_RESTRICT weights, const T* HWY_RESTRICT from, int entries,
-                   int padded_lanes, T* HWY_RESTRICT to) {
-  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
-  const std::size_t stride = padded_lanes;
-  int used[6], count = 0;
-  for (int a = 0; a < 6; ++a)
-    if (weights[a] != 0) used[count++] = a;
-  for (int e = 0; e < entries; ++e)
-    for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
-      const T* HWY_RESTRICT source = from + 6 * e * stride + lane;
-      T* HWY_RESTRICT target = to + e * stride + lane;
-      auto total = hn::Load(d, target);
-      for (int k = 0; k < count; ++k)
-        total =
-            hn::MulAdd(hn::Set(d, weights[used[k]]), hn::Load(d, source + used[k] * stride), total);
-      hn::Store(total, d, target);
-    }
+void EvaluateMidpoints(const LaneTable<T>& table, const PairScales& scales, const Vec3& m,
+                       const MidpointBatch& batch, PairScratch<T>& scratch,
+                       const MidpointSums<T>& sums) {
+  const auto normal = [&batch](auto d, int axis, int q) {
+    return LoadPoints(d, batch.n[axis] + q);
+  };
+  PairCoefficients(table, scales, m, batch.r, normal, batch.padded_size(), scratch);
+  for (int q = 0; q < batch.size; ++q) {
+    scratch.moving[0][q] = static_cast<T>(batch.area[q]);
+    for (int k = 0; k < 3; ++k)
+      scratch.moving[1 + k][q] = static_cast<T>(batch.n[k][q] / batch.area[q]);
+  }
+  ForLanes<T>(table.padded_lanes, [&](auto d, std::size_t lane) {
+    EvaluateMidpointLanes(d, lane, table, batch.size, scratch, sums);
+  });
+}
+
+/// `count` vectors of a row of CombineRows().
+template <int count, class D, class T = hn::TFromD<D>>
+HWY_INLINE void CombineRow(D d, const SparseRows& rows, int row, const T* from, std::size_t size,
+                           T* to) {
+  using V = hn::Vec<D>;
+  V sum[count];
+#pragma GCC unroll 8
+  for (int i = 0; i < count; ++i) sum[i] = hn::Zero(d);
+  for (int k = rows.begin[row]; k < rows.begin[row + 1]; ++k) {
+    const V value = hn::Set(d, static_cast<T>(rows.values[k]));
+    const T* HWY_RESTRICT source = from + rows.items[k] * size;
+#pragma GCC unroll 8
+    for (int i = 0; i < count; ++i)
+      sum[i] = hn::MulAdd(value, hn::LoadU(d, source + i * hn::Lanes(d)), sum[i]);
+  }
+#pragma GCC unroll 8
+  for (int i = 0; i < count; ++i) hn::StoreU(sum[i], d, to + i * hn::Lanes(d));
+}
+
+template <class T>
+void CombineRows(const SparseRows& rows, const T* from, std::size_t size, T* to) {
+  const WholeVector<T> d;
+  constexpr std::size_t kTogether = 8;
+  const std::size_t most = kTogether * hn::Lanes(d);
+  for (int row = 0; row < rows.rows(); ++row) {
+    T* const out = to + row * size;
+    std::size_t at = 0;
+    for (; at + most <= size; at += most)
+      CombineRow<kTogether>(d, rows, row, from + at, size, out + at);
+    ForLanes<T>(size - at, [&](auto tag, std::size_t rest) {
+      CombineRow<1>(tag, rows, row, from + at + rest, size, out + at + rest);
+    });
+  }
 }
 
 template <class T>
 void AddStrain(const T* HWY_RESTRICT uniform, int padded_lanes,
                const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
                T* HWY_RESTRICT out) {
-  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
-  using V = hn::Vec<decltype(d)>;
   const std::size_t stride = padded_lanes;
-  for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
-    const auto sum = [&](int entry, int a) {
-      return hn::Load(d, uniform + (6 * entry + a) * stride + lane);
-    };
-    for (int a = 0; a < 6; ++a)
-      for (int i = 0; i < 3; ++i) {
-        const V j[3] = {sum(3 * i, a), sum(3 * i + 1, a), sum(3 * i + 2, a)}, p = sum(9 + i, a);
-        for (int c = 0; c < 6; ++c) {
-          T* HWY_RESTRICT to = out + ((a * 3 + i) * 6 + c) * stride + lane;
-          V total = hn::MulAdd(hn::Set(d, static_cast<T>(pressure[c])), p, hn::Load(d, to));
-          for (int l = 0; l < 3; ++l)
-            total = hn::MulAdd(hn::Set(d, static_cast<T>(tractions(l, c))), j[l], total);
-          hn::Store(total, d, to);
-        }
+  ForLanes<T>(stride, [&](auto d, std::size_t lane) {
+    using V = hn::Vec<decltype(d)>;
+    const auto sum = [&](int entry) { return hn::LoadU(d, uniform + entry * stride + lane); };
+    for (int i = 0; i < 3; ++i) {
+      const V j[3] = {sum(3 * i), sum(3 * i + 1), sum(3 * i + 2)}, p = sum(9 + i);
+      for (int c = 0; c < 6; ++c) {
+        T* HWY_RESTRICT to = out + (i * 6 + c) * stride + lane;
+        V total = hn::MulAdd(hn::Set(d, static_cast<T>(pressure[c])), p, hn::LoadU(d, to));
+        for (int l = 0; l < 3; ++l)
+          total = hn::MulAdd(hn::Set(d, static_cast<T>(tractions(l, c))), j[l], total);
+        hn::StoreU(total, d, to);
       }
-  }
+    }
+  });
 }
 
-void AccumulatePairDouble(const LaneTable<double>& table, const PairScales& scales,
-                          const PairBatch& batch, PairScratch<double>& scratch,
+void AccumulatePairDouble(const LaneTable<double>& table, const PairScales& scales, const Vec3& m,
+                          const Vec3& n, const PairBatch& batch, PairScratch<double>& scratch,
                           const PairSums<double>& sums) {
-  AccumulatePair(table, scales, batch, scratch, sums);
+  AccumulatePair(table, scales, m, n, batch, scratch, sums);
 }
-void AddScaledDouble(double factor, const double* from, double* to, std::size_t size) {
-  AddScaled(factor, from, to, size);
+void EvaluateMidpointsDouble(const LaneTable<double>& table, const PairScales& scales,
+                             const Vec3& m, const MidpointBatch& batch,
+                             PairScratch<double>& scratch, const MidpointSums<double>& sums) {
+  EvaluateMidpoints(table, scales, m, batch, scratch, sums);
 }
-void CombineShapesDouble(const double* weights, const double* from, int entries, int padded_lanes,
-                         double* to) {
-  CombineShapes(weights, from, entries, padded_lanes, to);
+void CombineRowsDouble(const SparseRows& rows, const double* from, std::size_t size, double* to) {
+  CombineRows(rows, from, size, to);
 }
 void AddStrainDouble(const double* uniform, int padded_lanes,
                      const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
                      double* out) {
   AddStrain(uniform, padded_lanes, tractions, pressure, out);
 }
-void AccumulatePairFloat(const LaneTable<float>& table, const PairScales& scales,
-                         const PairBatch& batch, PairScratch<float>& scratch,
+void AccumulatePairFloat(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
+                         const Vec3& n, const PairBatch& batch, PairScratch<float>& scratch,
                          const PairSums<float>& sums) {
-  AccumulatePair(table, scales, batch, scratch, sums);
+  AccumulatePair(table, scales, m, n, batch, scratch, sums);
 }
-void AddScaledFloat(float factor, const float* from, float* to, std::size_t size) {
-  AddScaled(factor, from, to, size);
+void EvaluateMidpointsFloat(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
+                            const MidpointBatch& batch, PairScratch<float>& scratch,
+                            const MidpointSums<float>& sums) {
+  EvaluateMidpoints(table, scales, m, batch, scratch, sums);
 }
-void CombineShapesFloat(const float* weights, const float* from, int entries, int padded_lanes,
-                        float* to) {
-  CombineShapes(weights, from, entries, padded_lanes, to);
+void CombineRowsFloat(const SparseRows& rows, const float* from, std::size_t size, float* to) {
+  CombineRows(rows, from, size, to);
 }
 void AddStrainFloat(const float* uniform, int padded_lanes,
                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
@@ -412,10 +502,10 @@ namespace bem {
 
 HWY_EXPORT(AccumulatePairDouble);
 HWY_EXPORT(AccumulatePairFloat);
-HWY_EXPORT(AddScaledDouble);
-HWY_EXPORT(AddScaledFloat);
-HWY_EXPORT(CombineShapesDouble);
-HWY_EXPORT(CombineShapesFloat);
+HWY_EXPORT(EvaluateMidpointsDouble);
+HWY_EXPORT(EvaluateMidpointsFloat);
+HWY_EXPORT(CombineRowsDouble);
+HWY_EXPORT(CombineRowsFloat);
 HWY_EXPORT(AddStrainDouble);
 HWY_EXPORT(AddStrainFloat);
 
@@ -426,19 +516,20 @@ void PairBatch::pad() {
   }
 }
 
-void accumulate_pair(const LaneTable<double>& table, const PairScales& scales,
-                     const PairBatch& batch, PairScratch<double>& scratch,
+void accumulate_pair(const LaneTable<double>& table, const PairScales& scales, const Vec3& m,
+                     const Vec3& n, const PairBatch& batch, PairScratch<double>& scratch,
                      const PairSums<double>& sums) {
-  HWY_DYNAMIC_DISPATCH(AccumulatePairDouble)(table, scales, batch, scratch, sums);
+  HWY_DYNAMIC_DISPATCH(AccumulatePairDouble)(table, scales, m, n, batch, scratch, sums);
 }
 
-void add_scaled(double factor, const double* from, double* to, std::size_t size) {
-  HWY_DYNAMIC_DISPATCH(AddScaledDouble)(factor, from, to, size);
+void evaluate_midpoints(const LaneTable<double>& table, const PairScales& scales, const Vec3& m,
+                        const MidpointBatch& batch, PairScratch<double>& scratch,
+                        const MidpointSums<double>& sums) {
+  HWY_DYNAMIC_DISPATCH(EvaluateMidpointsDouble)(table, scales, m, batch, scratch, sums);
 }
 
-void combine_shapes(const double* weights, const double* from, int entries, int padded_lanes,
-                    double* to) {
-  HWY_DYNAMIC_DISPATCH(CombineShapesDouble)(weights, from, entries, padded_lanes, to);
+void combine_rows(const SparseRows& rows, const double* from, std::size_t size, double* to) {
+  HWY_DYNAMIC_DISPATCH(CombineRowsDouble)(rows, from, size, to);
 }
 
 void add_strain(const double* uniform, int padded_lanes,
@@ -447,19 +538,20 @@ void add_strain(const double* uniform, int padded_lanes,
   HWY_DYNAMIC_DISPATCH(AddStrainDouble)(uniform, padded_lanes, tractions, pressure, out);
 }
 
-void accumulate_pair(const LaneTable<float>& table, const PairScales& scales,
-                     const PairBatch& batch, PairScratch<float>& scratch,
+void accumulate_pair(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
+                     const Vec3& n, const PairBatch& batch, PairScratch<float>& scratch,
                      const PairSums<float>& sums) {
-  HWY_DYNAMIC_DISPATCH(AccumulatePairFloat)(table, scales, batch, scratch, sums);
+  HWY_DYNAMIC_DISPATCH(AccumulatePairFloat)(table, scales, m, n, batch, scratch, sums);
 }
 
-void add_scaled(float factor, const float* from, float* to, std::size_t size) {
-  HWY_DYNAMIC_DISPATCH(AddScaledFloat)(factor, from, to, size);
+void evaluate_midpoints(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
+                        const MidpointBatch& batch, PairScratch<float>& scratch,
+                        const MidpointSums<float>& sums) {
+  HWY_DYNAMIC_DISPATCH(EvaluateMidpointsFloat)(table, scales, m, batch, scratch, sums);
 }
 
-void combine_shapes(const float* weights, const float* from, int entries, int padded_lanes,
-                    float* to) {
-  HWY_DYNAMIC_DISPATCH(CombineShapesFloat)(weights, from, entries, padded_lanes, to);
+void combine_rows(const SparseRows& rows, const float* from, std::size_t size, float* to) {
+  HWY_DYNAMIC_DISPATCH(CombineRowsFloat)(rows, from, size, to);
 }
 
 void add_strain(const float* uniform, int padded_lanes,
@@ -468,7 +560,8 @@ void add_strain(const float* uniform, int padded_lanes,
 }
 
 void accumulate_pair_reference(const LaneTable<double>& table, const PairScales& scales,
-                               const PairBatch& batch, const PairSums<double>& sums) {
+                               const Vec3& m, const Vec3& n, const PairBatch& batch,
+                               const PairSums<double>& sums) {
   const std::size_t stride = table.padded_lanes;
   std::vector<double> values(kHypersingularCount * stride);
   int fibre = 0;
@@ -478,7 +571,7 @@ void accumulate_pair_reference(const LaneTable<double>& table, const PairScales&
       return of_x == batch.x_stays ? batch.staying[row][fibre] : batch.moving[row][q];
     };
     const Vec3 r(batch.r[0][q], batch.r[1][q], batch.r[2][q]);
-    const SurfacePair g = surface_pair(Vec3::Zero(), scales.m, r, scales.n);
+    const SurfacePair g = surface_pair(Vec3::Zero(), m, r, n);
     table.evaluate(g.r * scales.lam_per_distance, values.data());
     for (int lane = 0; lane < table.lanes; ++lane) {
       HypersingularValues<double> f;
@@ -488,17 +581,16 @@ void accumulate_pair_reference(const LaneTable<double>& table, const PairScales&
       const Vec3 pressure = pressure_kernel(g, f, scales.kappa);
       for (int x = 0; x < 6; ++x) {
         const double weight = shape(true, x + 1);
-        const auto add = [&](double* to, int entry, double value) {
-          to[(6 * entry + x) * stride + lane] += value;
-        };
         for (int e = 0; e < 9; ++e) {
+          const std::size_t at = e * stride + lane;
           for (int y = 0; y < 6; ++y)
-            add(sums.inertia[y], e, weight * shape(false, y + 1) * inertia(e / 3, e % 3));
+            sums.inertia[y][x][at] += weight * shape(false, y + 1) * inertia(e / 3, e % 3);
           for (int y = 0; y < 3; ++y)
-            add(sums.adjoint[y], e, weight * shape(false, y + 1) * adjoint(e / 3, e % 3));
-          add(sums.uniform, e, weight * shape(false, 0) * adjoint(e / 3, e % 3));
+            sums.adjoint[y][x][at] += weight * shape(false, y + 1) * adjoint(e / 3, e % 3);
+          sums.uniform[x][at] += weight * shape(false, 0) * adjoint(e / 3, e % 3);
         }
-        for (int e = 0; e < 3; ++e) add(sums.uniform, 9 + e, weight * shape(false, 0) * pressure[e]);
+        for (int e = 0; e < 3; ++e)
+          sums.uniform[x][(9 + e) * stride + lane] += weight * shape(false, 0) * pressure[e];
       }
     }
   }

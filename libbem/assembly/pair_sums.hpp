@@ -1,6 +1,6 @@
 #pragma once
 
-#include "assembly/edge_reconstruction.hpp"
+#include "assembly/surface_patch.hpp"
 #include "base/aligned.hpp"
 #include "base/types.hpp"
 #include "kernels/hypersingular_functions.hpp"
@@ -44,8 +44,9 @@ class FibreCollector {
     if (size_ > 0) {
       const Point& first = run_[0];
       const bool same_x = std::equal(x, x + 3, first.x), same_y = std::equal(y, y + 3, first.y);
-      const bool goes_on = size_ < PairBatch::kLongestFibre &&
-                           (size_ == 1 ? same_x || same_y : x_stays_ ? same_x : same_y);
+      const bool goes_on = size_ < PairBatch::kLongestFibre && (size_ == 1 ? same_x || same_y
+                                                                : x_stays_ ? same_x
+                                                                           : same_y);
       if (!goes_on) store();
       if (size_ == 1) x_stays_ = same_x;
     }
@@ -108,23 +109,49 @@ class FibreCollector {
 
 /// Where the sums over the points of a pair of triangles go, for every lane (lag and stage
 /// component): the dynamic kernels times the shape functions of both triangles. Arrays are
-/// [entry][shape of x][padded lane].
+/// [entry][padded lane].
 template <class T>
 struct PairSums {
-  static constexpr int kShapes = 6;  ///< of x
+  static constexpr int kShapes = 6;
   static constexpr int kUniform = 12;
 
-  T* inertia[6];  ///< Z by shape of y, 9 entries (row-major); all null: not wanted
-  T* adjoint[3];  ///< J by corner of y, 9 entries
-  T* uniform;     ///< J of tractions that are constant on y: 9 entries, then pressure_kernel(): 3
+  T* inertia[kShapes][kShapes];  ///< Z by shapes of y and x, 9 entries; all null: not wanted
+  T* adjoint[3][kShapes];        ///< J by corners of y and shapes of x, 9 entries (row-major)
+  /// J of tractions that are constant on y, by shapes of x: 9 entries, then pressure_kernel(): 3.
+  T* uniform[kShapes];
 };
 
-/// What the kernels of a pair have in common.
+/// Points y that are seen from one point x, each with a normal of its own.
+struct MidpointBatch {
+  static constexpr int kCapacity = PairBatch::kCapacity;
+
+  int size = 0;
+  double r[3][kCapacity];  ///< y - x [m]
+  double n[3][kCapacity];  ///< normals at y times areas [m^2]
+  double area[kCapacity];  ///< of y [m^2]
+
+  /// Entries up to here have to be filled with something.
+  int padded_size() const {
+    return (size + PairBatch::kPadding - 1) / PairBatch::kPadding * PairBatch::kPadding;
+  }
+};
+
+/// Where the kernels of one x and many y go; normals at both ends times their areas. Arrays end in
+/// [padded lane].
+template <class T>
+struct MidpointSums {
+  static constexpr int kUniform = 30;
+
+  T* inertia;  ///< Z: [y][9 entries]
+  T* adjoint;  ///< J times the area of y: [y][9 entries]
+  T* uniform;  ///< sums over y: J_il n_k at 9 i + 3 l + k, then pressure_kernel(): 3
+};
+
+/// What kernels of points of two surfaces have in common.
 struct PairScales {
   double density;  ///< [kg/m^3]
   double kappa;
   double lam_per_distance;  ///< 1/(c2 dt) [1/m]
-  Vec3 m, n;                ///< outward unit normals at x and y
 };
 
 /// Working memory of one thread.
@@ -143,31 +170,35 @@ struct PairScratch {
   alignas(64) T fibre_sums[kFibreSums * PairBatch::kFibres * kLanes];
 };
 
-/// Adds the contribution of a batch of points; `table` is of hypersingular_family(). Runs on the
-/// widest vector unit of the machine.
-void accumulate_pair(const LaneTable<double>& table, const PairScales& scales,
-                     const PairBatch& batch, PairScratch<double>& scratch,
+/// Adds the contribution of a batch of points; `table` is of hypersingular_family(), m and n are
+/// the unit normals at x and y. Runs on the widest vector unit of the machine.
+void accumulate_pair(const LaneTable<double>& table, const PairScales& scales, const Vec3& m,
+                     const Vec3& n, const PairBatch& batch, PairScratch<double>& scratch,
                      const PairSums<double>& sums);
-void accumulate_pair(const LaneTable<float>& table, const PairScales& scales,
-                     const PairBatch& batch, PairScratch<float>& scratch,
+void accumulate_pair(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
+                     const Vec3& n, const PairBatch& batch, PairScratch<float>& scratch,
                      const PairSums<float>& sums);
 
 /// The same in plain scalar code, for tests.
 void accumulate_pair_reference(const LaneTable<double>& table, const PairScales& scales,
-                               const PairBatch& batch, const PairSums<double>& sums);
+                               const Vec3& m, const Vec3& n, const PairBatch& batch,
+                               const PairSums<double>& sums);
 
-/// to[i] += factor * from[i]; `size` is a multiple of LaneTable<T>::kLanePadding.
-void add_scaled(double factor, const double* from, double* to, std::size_t size);
-void add_scaled(float factor, const float* from, float* to, std::size_t size);
+/// Stores the kernels between a point x, whose normal times its area is m, and others.
+void evaluate_midpoints(const LaneTable<double>& table, const PairScales& scales, const Vec3& m,
+                        const MidpointBatch& batch, PairScratch<double>& scratch,
+                        const MidpointSums<double>& sums);
+void evaluate_midpoints(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
+                        const MidpointBatch& batch, PairScratch<float>& scratch,
+                        const MidpointSums<float>& sums);
 
-/// to[entry][padded lane] += sum over the shapes of x of weights[shape] from[entry][shape][lane].
-void combine_shapes(const double* weights, const double* from, int entries, int padded_lanes,
-                    double* to);
-void combine_shapes(const float* weights, const float* from, int entries, int padded_lanes,
-                    float* to);
+/// to[row] = sum of value from[item] over the entries of the row, for `size` numbers each, a
+/// multiple of LaneTable<T>::kLanePadding.
+void combine_rows(const SparseRows& rows, const double* from, std::size_t size, double* to);
+void combine_rows(const SparseRows& rows, const float* from, std::size_t size, float* to);
 
-/// out[shape of x][3 axes x 6][padded lane] += J of tractions that are constant on y: `tractions`
-/// (3 x 6), and `pressure` times the pressure kernel, from PairSums::uniform.
+/// out[3 axes x 6][padded lane] += J of tractions that are constant on y: `tractions` (3 x 6), and
+/// `pressure` times the pressure kernel, from PairSums::uniform of a shape of x.
 void add_strain(const double* uniform, int padded_lanes,
                 const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure, double* out);
 void add_strain(const float* uniform, int padded_lanes,

@@ -117,50 +117,48 @@ template <class T>
 void Accumulate(const LaneTable<T>& table, const KernelScales& scales, const PointBatch& batch,
                 const Vec3& normal, PanelScratch<T>& scratch, T* HWY_RESTRICT sums, int functions) {
   constexpr int kNodes = LaneTable<T>::kNodes;
-  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
-  using V = hn::Vec<decltype(d)>;
-  const int lanes = static_cast<int>(hn::Lanes(d));
   const std::size_t stride = table.padded_lanes;
   Coefficients(table, scales, batch, normal, scratch);
-  alignas(64) T values[kCapacity * LaneTable<T>::kLanePadding];
+  alignas(64) T values[kCapacity * 64 / sizeof(T)];
   for (int f = 0; f < functions; ++f) {
-    for (std::size_t lane = 0; lane < stride; lane += lanes) {
-      const V rest = batch.singular ? hn::Load(d, table.static_part(f) + lane) : hn::Zero(d);
+    ForLanes<T>(stride, [&](auto d, std::size_t lane) {
+      using V = hn::Vec<decltype(d)>;
+      const int lanes = static_cast<int>(hn::Lanes(d));
+      const V rest = batch.singular ? hn::LoadU(d, table.static_part(f) + lane) : hn::Zero(d);
       const std::size_t offset = f * kNodes * stride + lane;
       // two independent Horner chains at a time
       for (int q = 0; q < batch.size; q += 2) {
         const T* HWY_RESTRICT c0 = scratch.interval[q] + offset;
         const T* HWY_RESTRICT c1 = scratch.interval[q + 1] + offset;
         const V t0 = hn::Set(d, scratch.local[q]), t1 = hn::Set(d, scratch.local[q + 1]);
-        V v0 = hn::Load(d, c0 + (kNodes - 1) * stride),
-          v1 = hn::Load(d, c1 + (kNodes - 1) * stride);
+        V v0 = hn::LoadU(d, c0 + (kNodes - 1) * stride),
+          v1 = hn::LoadU(d, c1 + (kNodes - 1) * stride);
 #pragma GCC unroll 8
         for (int degree = kNodes - 2; degree >= 0; --degree) {
-          v0 = hn::MulAdd(v0, t0, hn::Load(d, c0 + degree * stride));
-          v1 = hn::MulAdd(v1, t1, hn::Load(d, c1 + degree * stride));
+          v0 = hn::MulAdd(v0, t0, hn::LoadU(d, c0 + degree * stride));
+          v1 = hn::MulAdd(v1, t1, hn::LoadU(d, c1 + degree * stride));
         }
         hn::Store(hn::Sub(v0, rest), d, values + q * lanes);
         hn::Store(hn::Sub(v1, rest), d, values + (q + 1) * lanes);
       }
       Accumulate(d, scratch, f, batch.size, values, sums + lane, stride);
-    }
+    });
   }
 }
 
 template <class T>
 void Add(const T* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
          const PanelTarget<T>& target) {
-  const hn::CappedTag<T, LaneTable<T>::kLanePadding> d;
-  using V = hn::Vec<decltype(d)>;
   const std::size_t stride = padded_lanes;
-  const V normal[3] = {hn::Set(d, static_cast<T>(n[0])), hn::Set(d, static_cast<T>(n[1])),
-                       hn::Set(d, static_cast<T>(n[2]))};
   constexpr int kPair[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-  for (std::size_t lane = 0; lane < stride; lane += hn::Lanes(d)) {
-    const auto sum = [&](int row) { return hn::Load(d, sums + row * stride + lane); };
+  ForLanes<T>(stride, [&](auto d, std::size_t lane) {
+    using V = hn::Vec<decltype(d)>;
+    const V normal[3] = {hn::Set(d, static_cast<T>(n[0])), hn::Set(d, static_cast<T>(n[1])),
+                         hn::Set(d, static_cast<T>(n[2]))};
+    const auto sum = [&](int row) { return hn::LoadU(d, sums + row * stride + lane); };
     const auto add = [&](T* block, int entry, V value) {
       T* HWY_RESTRICT at = block + entry * stride + lane;
-      hn::Store(hn::Add(hn::Load(d, at), value), d, at);
+      hn::StoreU(hn::Add(hn::LoadU(d, at), value), d, at);
     };
     for (int a = 0; a < 3; ++a) {
       const V trace = sum(kSumA + a);
@@ -213,7 +211,7 @@ void Add(const T* HWY_RESTRICT sums, const Vec3& n, int padded_lanes,
                                  : hn::Add(part(j, k), part(k, j));
           add(target.m, 6 * i + kPair[j][k], value);
         }
-  }
+  });
 }
 
 void AccumulateDouble(const LaneTable<double>& table, const KernelScales& scales,

@@ -70,17 +70,20 @@ HWY_ATTR void AccumulateStatic(const Vec3& m, const StaticTraction& traction,
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "assembly/edge_reconstruction.hpp"
+
+#include <algorithm>
+
 namespace bem {
 
 HWY_EXPORT(AccumulateStatic);
 
-void StaticBatch::add(const Vec3& distance, const double* x_shapes, const double* y,
-                      double weight) {
-  for (int i = 0; i < 3; ++i) r[i][size] = distance[i];
-  double* to = shapes[size++];
+void set_shapes(const double* x, const double* y, double weight,
+                double (&shapes)[StaticBatch::kShapes]) {
+  const auto of_x = quadratic_shapes(x);
+  std::fill(std::begin(shapes), std::end(shapes), 0.0);
   for (int a = 0; a < 6; ++a)
-    for (int b = 0; b < 3; ++b) to[3 * a + b] = weight * x_shapes[a] * y[b];
-  for (int i = 18; i < kShapes; ++i) to[i] = 0;
+    for (int b = 0; b < 3; ++b) shapes[3 * a + b] = weight * of_x[a] * y[b];
 }
 
 void accumulate_static(const Vec3& m, const StaticTraction& traction, StaticBatch& batch,

@@ -11,11 +11,18 @@ struct StaticBatch {
 
   int size = 0;
   double r[3][kCapacity];  ///< y - x [m]
-  /// Weight times shape function a of x times linear function b of y, at 3 a + b; the rest is zero.
-  alignas(64) double shapes[kCapacity][kShapes];
+  /// Of each point: see set_shapes(). On a cache line; points may share their numbers with others.
+  const double (*shapes)[kShapes] = nullptr;
 
-  void add(const Vec3& distance, const double* x_shapes, const double* y, double weight);
+  void add(const Vec3& distance) {
+    for (int i = 0; i < 3; ++i) r[i][size] = distance[i];
+    ++size;
+  }
 };
+
+/// Weight times shape function a of x times linear function b of y, at 3 a + b; the rest is zero.
+void set_shapes(const double* x, const double* y, double weight,
+                double (&shapes)[StaticBatch::kShapes]);
 
 /// Sums over points: static kernels times products of shape functions.
 struct StaticSums {

@@ -20,7 +20,7 @@ template <class T>
 struct LaneTable {
   static constexpr int kNodes = 8;  ///< polynomial coefficients per interval
   static constexpr double kGrading = 0.2;
-  static constexpr int kLanePadding = 64 / sizeof(T);  ///< lanes fill whole cache lines
+  static constexpr int kLanePadding = 8;
 
   int functions = 0;
   int lanes = 0;

@@ -13,12 +13,13 @@ constexpr int kRows = 9 * 54 + 72;
 
 template <class T>
 PairSums<T> places(AlignedVector<T>& from, int padded_lanes) {
-  const std::size_t part = 54 * static_cast<std::size_t>(padded_lanes);
   PairSums<T> sums;
   T* at = from.data();
-  for (auto& y : sums.inertia) y = std::exchange(at, at + part);
-  for (auto& y : sums.adjoint) y = std::exchange(at, at + part);
-  sums.uniform = at;
+  for (auto& y : sums.inertia)
+    for (auto& x : y) x = std::exchange(at, at + 9 * padded_lanes);
+  for (auto& y : sums.adjoint)
+    for (auto& x : y) x = std::exchange(at, at + 9 * padded_lanes);
+  for (auto& x : sums.uniform) x = std::exchange(at, at + 12 * padded_lanes);
   return sums;
 }
 
@@ -29,7 +30,8 @@ double worst_difference(const LaneTable<T>& table, const LaneTable<double>& exac
   double worst = 0;
   for (const auto& [x_stays, sizes] : std::vector<std::pair<bool, std::vector<int>>>{
            {true, {1}}, {false, {1, 4, 2}}, {true, {16, 16, 3, 16, 13}}, {false, {3, 3, 3}}}) {
-    PairScales scales{1.7, 0.2, 1.9, Vec3(1, -2, 0.5).normalized(), Vec3(0.3, 1, -1).normalized()};
+    const PairScales scales{1.7, 0.2, 1.9};
+    const Vec3 m = Vec3(1, -2, 0.5).normalized(), n = Vec3(0.3, 1, -1).normalized();
     PairBatch batch;
     batch.x_stays = x_stays;
     for (int size : sizes) {
@@ -47,8 +49,8 @@ double worst_difference(const LaneTable<T>& table, const LaneTable<double>& exac
     AlignedVector<T> found(kRows * static_cast<std::size_t>(table.padded_lanes), T(0.25));
     AlignedVector<double> expected(kRows * static_cast<std::size_t>(exact_table.padded_lanes),
                                    0.25);
-    accumulate_pair(table, scales, batch, scratch, places(found, table.padded_lanes));
-    accumulate_pair_reference(exact_table, scales, batch,
+    accumulate_pair(table, scales, m, n, batch, scratch, places(found, table.padded_lanes));
+    accumulate_pair_reference(exact_table, scales, m, n, batch,
                               places(expected, exact_table.padded_lanes));
     double scale = 0;
     for (double x : expected) scale = std::max(scale, std::abs(x - 0.25));
@@ -79,8 +81,8 @@ TEST_CASE("points are collected in fibres of which one end stays") {
   std::vector<std::pair<bool, std::vector<int>>> found;  // by batch: does x stay, ends of fibres
   double weight = 0;
   const auto consume = [&](const PairBatch& given) {
-    found.emplace_back(given.x_stays, std::vector<int>(given.begin + 1,
-                                                       given.begin + 1 + given.fibres));
+    found.emplace_back(given.x_stays,
+                       std::vector<int>(given.begin + 1, given.begin + 1 + given.fibres));
     for (int f = 0; f < given.fibres; ++f)
       for (int q = given.begin[f]; q < given.begin[f + 1]; ++q)
         weight += given.moving[0][q] * given.staying[0][f];
@@ -91,7 +93,7 @@ TEST_CASE("points are collected in fibres of which one end stays") {
   fibres.add(r, a, c, 2);
   fibres.add(r, b, c, 3);  // c stays as y
   fibres.add(r, a, c, 4);
-  fibres.add(r, c, a, 5);  // alone
+  fibres.add(r, c, a, 5);                               // alone
   for (int i = 0; i < 20; ++i) fibres.add(r, b, c, 6);  // longer than a fibre may be
   fibres.finish();
   CHECK(weight == Approx(1 + 2 + 3 + 4 + 5 + 20 * 6));

@@ -1,0 +1,143 @@
+#include "assembly/surface_patch.hpp"
+
+#include "mesh/bisection.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace bem {
+namespace {
+
+std::vector<int> sorted_unique(std::vector<int> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+int place_of(const std::vector<int>& sorted, int value) {
+  return static_cast<int>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
+}
+
+SurfacePatch make_patch(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction,
+                        std::vector<int> triangles) {
+  using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+  const auto& rho = reconstruction.coefficients();
+  SurfacePatch p;
+  p.triangles = std::move(triangles);
+  std::vector<int> edges;
+  for (int t : p.triangles)
+    for (int k = 0; k < 3; ++k) {
+      p.hats.push_back(mesh.triangles[t][k]);
+      edges.push_back(reconstruction.edges().of[t][k]);
+    }
+  p.hats = sorted_unique(std::move(p.hats));
+  edges = sorted_unique(std::move(edges));
+  p.nodes = p.hats;
+  for (int e : edges)
+    for (Row it(rho, e); it; ++it) p.nodes.push_back(static_cast<int>(it.col()));
+  p.nodes = sorted_unique(std::move(p.nodes));
+  p.shape_count = static_cast<int>(p.hats.size() + edges.size());
+
+  p.low = p.high = mesh.vertices[p.hats[0]];
+  for (int v : p.hats) {
+    p.low = p.low.cwiseMin(mesh.vertices[v]);
+    p.high = p.high.cwiseMax(mesh.vertices[v]);
+  }
+  p.midpoints.resize(edges.size());
+  for (int t : p.triangles) {
+    const double part = triangle_area(mesh, mesh.triangles[t]) / 3;
+    std::array<int, 6> shapes;
+    for (int k = 0; k < 3; ++k) {
+      const int edge = place_of(edges, reconstruction.edges().of[t][k]);
+      shapes[k] = place_of(p.hats, mesh.triangles[t][k]);
+      shapes[3 + k] = static_cast<int>(p.hats.size()) + edge;
+      p.midpoints[edge].area += part;
+      p.midpoints[edge].normal += part * triangle_normal(mesh, mesh.triangles[t]);
+    }
+    p.shapes.push_back(shapes);
+    p.longest_edge = std::max(p.longest_edge, longest_edge(mesh, mesh.triangles[t]));
+  }
+
+  // by node: its hat, and what the bubbles owe to it
+  std::vector<std::vector<std::pair<int, double>>> shapes(p.nodes.size()), at(p.nodes.size()),
+      hats_at(p.hats.size());
+  for (std::size_t h = 0; h < p.hats.size(); ++h)
+    shapes[place_of(p.nodes, p.hats[h])].emplace_back(static_cast<int>(h), 1.0);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const int number = static_cast<int>(e);
+    std::map<int, double> value;  // at the midpoint, by node
+    for (Row it(rho, edges[e]); it; ++it) {
+      const int node = place_of(p.nodes, static_cast<int>(it.col()));
+      if (it.value() == 0) continue;
+      shapes[node].emplace_back(static_cast<int>(p.hats.size()) + number, it.value());
+      value[node] += it.value();
+    }
+    for (int v : reconstruction.edges().vertices[edges[e]]) {
+      p.midpoints[e].place += 0.5 * mesh.vertices[v];
+      value[place_of(p.nodes, v)] += 0.5;
+      hats_at[place_of(p.hats, v)].emplace_back(number, 0.5);
+    }
+    for (const auto& [node, amount] : value) at[node].emplace_back(number, amount);
+  }
+  for (std::size_t k = 0; k < p.nodes.size(); ++k) {
+    p.displacements.add_row(shapes[k]);
+    p.displacements_at.add_row(at[k]);
+  }
+  for (const auto& entries : hats_at) p.tractions_at.add_row(entries);
+  return p;
+}
+
+/// Ranges of the bisected order with at most so many triangles.
+void cut(const std::vector<int>& order, int begin, int end, int most,
+         std::vector<std::vector<int>>& out) {
+  if (end - begin <= most) {
+    out.emplace_back(order.begin() + begin, order.begin() + end);
+    return;
+  }
+  const int middle = begin + first_half(end - begin);
+  cut(order, begin, middle, most, out);
+  cut(order, middle, end, most, out);
+}
+
+}  // namespace
+
+void SparseRows::add_row(const std::vector<std::pair<int, double>>& entries) {
+  for (const auto& [item, value] : entries) {
+    items.push_back(item);
+    values.push_back(value);
+  }
+  begin.push_back(static_cast<int>(items.size()));
+}
+
+void SparseRows::add_row(const SparseRows& from, int row) {
+  const int first = from.begin[row], last = from.begin[row + 1];
+  items.insert(items.end(), from.items.begin() + first, from.items.begin() + last);
+  values.insert(values.end(), from.values.begin() + first, from.values.begin() + last);
+  begin.push_back(static_cast<int>(items.size()));
+}
+
+Eigen::MatrixXd SparseRows::dense(int item_count) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows(), item_count);
+  for (int row = 0; row < rows(); ++row)
+    for (int k = begin[row]; k < begin[row + 1]; ++k) out(row, items[k]) += values[k];
+  return out;
+}
+
+std::vector<SurfacePatch> make_patches(const TriangleMesh& mesh,
+                                       const EdgeReconstruction& reconstruction, int most) {
+  std::vector<Vec3> centres;
+  for (const Triangle& t : mesh.triangles)
+    centres.push_back((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3);
+  std::vector<std::vector<int>> parts;
+  cut(bisection_order(centres), 0, static_cast<int>(centres.size()), most, parts);
+  std::vector<SurfacePatch> patches;
+  for (std::vector<int>& triangles : parts)
+    patches.push_back(make_patch(mesh, reconstruction, std::move(triangles)));
+  return patches;
+}
+
+double patch_distance(const SurfacePatch& a, const SurfacePatch& b) {
+  return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm();
+}
+
+}  // namespace bem

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "assembly/edge_reconstruction.hpp"
+
+namespace bem {
+
+/// Linear combinations of items, row by row.
+struct SparseRows {
+  std::vector<int> begin = {0};  ///< of each row, and the end
+  std::vector<int> items;
+  std::vector<double> values;
+
+  int rows() const { return static_cast<int>(begin.size()) - 1; }
+  void add_row(const std::vector<std::pair<int, double>>& entries);
+  void add_row(const SparseRows& from, int row);
+  Eigen::MatrixXd dense(int item_count) const;
+};
+
+/// Some neighbouring triangles. Sums are taken by their shape functions, hats of corners and
+/// bubbles of edges, or by the midpoints of their edges, and only then combined to the basis
+/// functions of the nodes that reach them.
+struct SurfacePatch {
+  std::vector<int> triangles;
+  std::vector<int> nodes;  ///< whose basis functions do not vanish here, ascending
+  std::vector<int> hats;  ///< nodes that are corners here, ascending; shapes are hats, then bubbles
+  int shape_count = 0;
+  std::vector<std::array<int, 6>> shapes;  ///< by triangle: numbers of hats, then of bubbles
+  SparseRows displacements;                ///< by node: shapes
+
+  /// The rule of degree 2 whose points are the midpoints of edges, which triangles share.
+  struct Midpoint {
+    Vec3 place = Vec3::Zero();
+    Vec3 normal = Vec3::Zero();  ///< times the area [m^2]
+    double area = 0;
+  };
+  std::vector<Midpoint> midpoints;
+  SparseRows displacements_at;  ///< by node: midpoints
+  SparseRows tractions_at;      ///< by hat: midpoints
+
+  Vec3 low, high;  ///< box
+  double longest_edge = 0;
+};
+
+/// Cuts a mesh into patches of at most so many triangles.
+std::vector<SurfacePatch> make_patches(const TriangleMesh& mesh,
+                                       const EdgeReconstruction& reconstruction, int most);
+
+/// Distance of the boxes [m].
+double patch_distance(const SurfacePatch& a, const SurfacePatch& b);
+
+}  // namespace bem
