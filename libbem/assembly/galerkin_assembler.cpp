@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace bem {
 namespace {
@@ -50,13 +51,15 @@ struct GalerkinAssembler::PatchRows {
   }
 };
 
-/// What one patch of y adds to the wanted rows of one of x, and working memory for it.
+/// What one patch of y adds to the wanted rows, and working memory for it.
 template <class T>
 struct GalerkinAssembler::Block {
   AlignedVector<T> inertia, adjoint;  ///< [row][node or hat of y][3x3 entry][padded lane]
   AlignedVector<T> strain;            ///< [row][3 axes x 6][padded lane]
   Entries static_h, static_g;         ///< rows x nodes or hats of y
 
+  /// Of one patch of x alone, by its rows.
+  AlignedVector<T> some_rows;
   /// The same by shapes or midpoints of x and y, and inertia by shapes of x and nodes of y.
   AlignedVector<T> own_inertia, own_adjoint, own_strain, by_node;
   Entries own_static_h, own_static_g;
@@ -64,6 +67,19 @@ struct GalerkinAssembler::Block {
   PairBatch pair_batch;
   MidpointBatch midpoint_batch;
   PairScratch<T> scratch;
+  Eigen::MatrixXd of_y;  ///< displacements: shapes x nodes of y
+
+  void clear(int rows, const SurfacePatch& y, int padded_lanes) {
+    const std::size_t stride = padded_lanes;
+    const auto nodes = static_cast<Eigen::Index>(y.nodes.size()),
+               hats = static_cast<Eigen::Index>(y.hats.size());
+    set_zero(inertia, rows * nodes * 9 * stride);
+    set_zero(adjoint, rows * hats * 9 * stride);
+    set_zero(strain, rows * 18 * stride);
+    set_zero(static_h, rows, nodes);
+    set_zero(static_g, rows, hats);
+    of_y = y.displacements.dense(y.shape_count).transpose();
+  }
 };
 
 GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
@@ -81,7 +97,9 @@ GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
   require(d.dt > 0 && d.history_length >= 0, "dt and the length of the history are possible");
   const int count = static_cast<int>(mesh.triangles.size());
   for (int t = 0; t < count; ++t) bases_.push_back(triangle_basis(mesh, reconstruction_, t));
-  patches_ = make_patches(mesh, reconstruction_, kPatchTriangles);
+  std::vector<int> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  patches_ = make_patches(mesh, reconstruction_, all, kPatchTriangles);
 }
 
 GalerkinAssembler::~GalerkinAssembler() = default;
@@ -109,34 +127,45 @@ void GalerkinAssembler::assemble_rows(int first, int last, const LaneTable<T>& l
   rows.static_h = rows.static_g = Eigen::MatrixXd::Zero(3 * count, 3 * n);
   add_mass(first, last, rows.static_g);
 
+  std::vector<int> reached;  // triangles that basis functions of wanted rows do not vanish on
+  for (std::size_t t = 0; t < bases_.size(); ++t) {
+    const std::vector<int>& nodes = bases_[t].vertices;
+    if (std::any_of(nodes.begin(), nodes.end(), [&](int k) { return k >= first && k < last; }))
+      reached.push_back(static_cast<int>(t));
+  }
+  const std::vector<SurfacePatch> patches =
+      make_patches(mesh_, reconstruction_, reached, kPatchTriangles);
+  std::vector<PatchRows> wanted;
+  for (const SurfacePatch& x : patches) wanted.emplace_back(x, first, last);
+
   // some patches of y at a time, added in their order: the same for any number of threads
   const std::size_t together = 2 * static_cast<std::size_t>(thread_count());
   std::vector<Block<T>> blocks(std::min(together, patches_.size()));
-  for (const SurfacePatch& x : patches_) {
-    const PatchRows wanted(x, first, last);
-    if (wanted.rows.empty()) continue;
-    for (std::size_t begin = 0; begin < patches_.size(); begin += together) {
-      const std::size_t some = std::min(together, patches_.size() - begin);
-      parallel_for(some, [&](std::size_t i) {
+  for (std::size_t begin = 0; begin < patches_.size(); begin += together) {
+    const std::size_t some = std::min(together, patches_.size() - begin);
+    parallel_for(some, [&](std::size_t i) {
+      const SurfacePatch& y = patches_[begin + i];
+      blocks[i].clear(count, y, lanes.padded_lanes);
+      for (std::size_t k = 0; k < patches.size(); ++k) {
         check_interruption();
-        assemble_block(x, wanted, patches_[begin + i], lanes, blocks[i]);
-      });
-      parallel_for(wanted.rows.size(), [&](std::size_t row) {
-        for (std::size_t i = 0; i < some; ++i)
-          add_block_row(patches_[begin + i], blocks[i], row, wanted.rows[row], rows);
-      });
-    }
+        add_patch(patches[k], wanted[k], y, lanes, blocks[i]);
+      }
+    });
+    parallel_for(count, [&](std::size_t row) {
+      for (std::size_t i = 0; i < some; ++i)
+        add_block_row(patches_[begin + i], blocks[i], static_cast<int>(row), rows);
+    });
   }
 }
 
 template <class T>
-void GalerkinAssembler::add_block_row(const SurfacePatch& y, const Block<T>& block,
-                                      std::size_t from_row, int row, GalerkinRows<T>& rows) const {
+void GalerkinAssembler::add_block_row(const SurfacePatch& y, const Block<T>& block, int row,
+                                      GalerkinRows<T>& rows) const {
   const std::size_t stride = rows.padded_lanes, size = 9 * stride;
   const auto add = [&](const AlignedVector<T>& from, const std::vector<int>& nodes,
                        AlignedVector<T>& to) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const T* a = &from[(from_row * nodes.size() + k) * size];
+      const T* a = &from[(row * nodes.size() + k) * size];
       T* b = &to[(std::size_t(row) * rows.nodes + nodes[k]) * size];
       for (std::size_t e = 0; e < size; ++e) b[e] += a[e];
     }
@@ -144,13 +173,13 @@ void GalerkinAssembler::add_block_row(const SurfacePatch& y, const Block<T>& blo
   add(block.inertia, y.nodes, rows.inertia);
   add(block.adjoint, y.hats, rows.adjoint);
   for (std::size_t e = 0; e < 18 * stride; ++e)
-    rows.strain[row * 18 * stride + e] += block.strain[from_row * 18 * stride + e];
+    rows.strain[row * 18 * stride + e] += block.strain[row * 18 * stride + e];
   const auto add_static = [&](const Entries& from, const std::vector<int>& nodes,
                               Eigen::MatrixXd& to) {
     for (std::size_t k = 0; k < nodes.size(); ++k)
       for (int e = 0; e < 9; ++e)
         to(3 * row + e / 3, 3 * nodes[k] + e % 3) +=
-            from[e](static_cast<Eigen::Index>(from_row), static_cast<Eigen::Index>(k));
+            from[e](row, static_cast<Eigen::Index>(k));
   };
   add_static(block.static_h, y.nodes, rows.static_h);
   add_static(block.static_g, y.hats, rows.static_g);
@@ -303,46 +332,62 @@ void GalerkinAssembler::sum_static(const SurfacePatch& x, const SurfacePatch& y,
     }
 }
 
+namespace {
+
+/// to[rows[k]] += from[k], for `size` numbers each.
 template <class T>
-void GalerkinAssembler::assemble_block(const SurfacePatch& x, const PatchRows& wanted,
-                                       const SurfacePatch& y, const LaneTable<T>& lanes,
-                                       Block<T>& block) const {
+void add_rows(const std::vector<int>& rows, const AlignedVector<T>& from, std::size_t size,
+                     AlignedVector<T>& to) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const T* a = &from[k * size];
+    T* b = &to[rows[k] * size];
+    for (std::size_t i = 0; i < size; ++i) b[i] += a[i];
+  }
+}
+
+}  // namespace
+
+template <class T>
+void GalerkinAssembler::add_patch(const SurfacePatch& x, const PatchRows& wanted,
+                                  const SurfacePatch& y, const LaneTable<T>& lanes,
+                                  Block<T>& block) const {
   const std::size_t stride = lanes.padded_lanes, entry = 9 * stride;
-  const std::size_t rows = wanted.rows.size(), nodes = y.nodes.size(), hats = y.hats.size();
-  const bool far =
-      quadrature_.midpoints_suffice(patch_distance(x, y), std::max(x.longest_edge, y.longest_edge));
+  const std::size_t nodes = y.nodes.size(), hats = y.hats.size();
+  const bool far = quadrature_.midpoints_suffice(patch_distance(x, y),
+                                                 std::max(x.longest_edge, y.longest_edge));
   if (far)
     sum_by_midpoints(x, y, lanes, block);
   else
     sum_by_shapes(x, y, lanes, block);
   const std::size_t own_x = far ? x.midpoints.size() : x.shape_count;
-  const std::size_t own_y = far ? y.midpoints.size() : y.shape_count;
   const SparseRows& of_rows = far ? wanted.midpoints : wanted.shapes;
-
-  block.inertia.resize(rows * nodes * entry);
-  block.adjoint.resize(rows * hats * entry);
-  block.strain.resize(rows * 18 * stride);
-  block.by_node.resize(own_x * nodes * entry);
-  for (std::size_t i = 0; i < own_x; ++i)
-    combine_rows(far ? y.displacements_at : y.displacements, &block.own_inertia[i * own_y * entry],
-                 entry, &block.by_node[i * nodes * entry]);
-  combine_rows(of_rows, block.by_node.data(), nodes * entry, block.inertia.data());
-  if (far) {
-    block.by_node.resize(own_x * hats * entry);
+  const auto add = [&](const AlignedVector<T>& by_own, std::size_t size, AlignedVector<T>& to) {
+    block.some_rows.resize(wanted.rows.size() * size);
+    combine_rows(of_rows, by_own.data(), size, block.some_rows.data());
+    add_rows(wanted.rows, block.some_rows, size, to);
+  };
+  const auto by_node = [&](const SparseRows& of_y, std::size_t own_y,
+                           const AlignedVector<T>& from) -> const AlignedVector<T>& {
+    block.by_node.resize(own_x * of_y.rows() * entry);
     for (std::size_t i = 0; i < own_x; ++i)
-      combine_rows(y.tractions_at, &block.own_adjoint[i * own_y * entry], entry,
-                   &block.by_node[i * hats * entry]);
-    combine_rows(of_rows, block.by_node.data(), hats * entry, block.adjoint.data());
+      combine_rows(of_y, &from[i * own_y * entry], entry, &block.by_node[i * of_y.rows() * entry]);
+    return block.by_node;
+  };
+  const std::size_t points = y.midpoints.size();
+  if (far) {
+    add(by_node(y.displacements_at, points, block.own_inertia), nodes * entry, block.inertia);
+    add(by_node(y.tractions_at, points, block.own_adjoint), hats * entry, block.adjoint);
   } else {
-    combine_rows(of_rows, block.own_adjoint.data(), hats * entry, block.adjoint.data());
+    add(by_node(y.displacements, y.shape_count, block.own_inertia), nodes * entry, block.inertia);
+    add(block.own_adjoint, hats * entry, block.adjoint);
   }
-  combine_rows(of_rows, block.own_strain.data(), 18 * stride, block.strain.data());
+  add(block.own_strain, 18 * stride, block.strain);
 
   sum_static(x, y, block.own_static_h, block.own_static_g);
-  const Eigen::MatrixXd of_y = y.displacements.dense(y.shape_count).transpose();
   for (int e = 0; e < 9; ++e) {
-    block.static_h[e] = wanted.dense_shapes * (block.own_static_h[e] * of_y);
-    block.static_g[e] = wanted.dense_shapes * block.own_static_g[e];
+    block.static_h[e](wanted.rows, Eigen::all) +=
+        wanted.dense_shapes * (block.own_static_h[e] * block.of_y);
+    block.static_g[e](wanted.rows, Eigen::all) += wanted.dense_shapes * block.own_static_g[e];
   }
 }
 

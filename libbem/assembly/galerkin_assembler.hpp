@@ -61,10 +61,10 @@ class GalerkinAssembler {
   template <class T>
   void assemble_rows(int first, int last, const LaneTable<T>& lanes, GalerkinRows<T>& rows) const;
   template <class T>
-  void assemble_block(const SurfacePatch& x, const PatchRows& wanted, const SurfacePatch& y,
-                      const LaneTable<T>& lanes, Block<T>& block) const;
+  void add_patch(const SurfacePatch& x, const PatchRows& wanted, const SurfacePatch& y,
+                 const LaneTable<T>& lanes, Block<T>& block) const;
   template <class T>
-  void add_block_row(const SurfacePatch& y, const Block<T>& block, std::size_t from_row, int row,
+  void add_block_row(const SurfacePatch& y, const Block<T>& block, int row,
                      GalerkinRows<T>& rows) const;
   void add_mass(int first, int last, Eigen::MatrixXd& g) const;
 

@@ -124,15 +124,20 @@ Eigen::MatrixXd SparseRows::dense(int item_count) const {
 }
 
 std::vector<SurfacePatch> make_patches(const TriangleMesh& mesh,
-                                       const EdgeReconstruction& reconstruction, int most) {
+                                       const EdgeReconstruction& reconstruction,
+                                       const std::vector<int>& triangles, int most) {
   std::vector<Vec3> centres;
-  for (const Triangle& t : mesh.triangles)
+  for (int i : triangles) {
+    const Triangle& t = mesh.triangles[i];
     centres.push_back((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3);
+  }
+  std::vector<int> order = bisection_order(centres);
+  for (int& i : order) i = triangles[i];
   std::vector<std::vector<int>> parts;
-  cut(bisection_order(centres), 0, static_cast<int>(centres.size()), most, parts);
+  cut(order, 0, static_cast<int>(order.size()), most, parts);
   std::vector<SurfacePatch> patches;
-  for (std::vector<int>& triangles : parts)
-    patches.push_back(make_patch(mesh, reconstruction, std::move(triangles)));
+  for (std::vector<int>& part : parts)
+    patches.push_back(make_patch(mesh, reconstruction, std::move(part)));
   return patches;
 }
 

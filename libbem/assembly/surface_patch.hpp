@@ -41,9 +41,10 @@ struct SurfacePatch {
   double longest_edge = 0;
 };
 
-/// Cuts a mesh into patches of at most so many triangles.
+/// Cuts some triangles of a mesh into patches of at most so many.
 std::vector<SurfacePatch> make_patches(const TriangleMesh& mesh,
-                                       const EdgeReconstruction& reconstruction, int most);
+                                       const EdgeReconstruction& reconstruction,
+                                       const std::vector<int>& triangles, int most);
 
 /// Distance of the boxes [m].
 double patch_distance(const SurfacePatch& a, const SurfacePatch& b);

@@ -30,7 +30,7 @@ void GalerkinSlabs<T>::with_rows(int first, int last, const F& f) {
 /// As many rows as have room, so that few triangles are gone through again for the next ones.
 template <class T>
 int GalerkinSlabs<T>::rows_in_memory() const {
-  constexpr double kMostBytes = 1e9;
+  constexpr double kMostBytes = 2e9;
   const double entry = precision_ == AssemblyPrecision::single ? sizeof(float) : sizeof(double);
   const int n = static_cast<int>(this->model_.nodes());
   const double per_row = 18.0 * n * assembler_.layout().count() * entry;
