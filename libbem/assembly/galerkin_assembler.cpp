@@ -1,5 +1,7 @@
 #include "assembly/galerkin_assembler.hpp"
 
+#include "algebra/blas.hpp"
+#include "assembly/static_sums.hpp"
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "base/parallel.hpp"
@@ -38,16 +40,21 @@ void set_zero(Entries& entries, Eigen::Index rows, Eigen::Index columns) {
 struct GalerkinAssembler::PatchRows {
   std::vector<int> rows;  ///< counted from the first wanted row
   SparseRows shapes, midpoints;
-  Eigen::MatrixXd dense_shapes;
+  Eigen::MatrixXd dense_shapes, dense_midpoints;
+  std::array<Eigen::MatrixXd, 3> curls_at;  ///< of SurfacePatch, wanted rows alone
 
   PatchRows(const SurfacePatch& patch, int first, int last) {
+    std::vector<int> places;
     for (std::size_t k = 0; k < patch.nodes.size(); ++k) {
       if (patch.nodes[k] < first || patch.nodes[k] >= last) continue;
+      places.push_back(static_cast<int>(k));
       rows.push_back(patch.nodes[k] - first);
       shapes.add_row(patch.displacements, static_cast<int>(k));
       midpoints.add_row(patch.displacements_at, static_cast<int>(k));
     }
     dense_shapes = shapes.dense(patch.shape_count);
+    dense_midpoints = midpoints.dense(static_cast<int>(patch.midpoints.size()));
+    for (int k = 0; k < 3; ++k) curls_at[k] = patch.curls_at[k](places, Eigen::all);
   }
 };
 
@@ -63,11 +70,14 @@ struct GalerkinAssembler::Block {
   /// The same by shapes or midpoints of x and y, and inertia by shapes of x and nodes of y.
   AlignedVector<T> own_inertia, own_adjoint, own_strain, by_node;
   Entries own_static_h, own_static_g;
+  Eigen::MatrixXd forms, static_adjoint, static_by_y, static_sum;
   AlignedVector<T> uniform;
   PairBatch pair_batch;
   MidpointBatch midpoint_batch;
   PairScratch<T> scratch;
   Eigen::MatrixXd of_y;  ///< displacements: shapes x nodes of y
+  /// At midpoints: tractions, midpoints x hats of y; curls, midpoints x nodes of y by axis.
+  Eigen::MatrixXd tractions_of_y, curls_of_y;
 
   void clear(int rows, const SurfacePatch& y, int padded_lanes) {
     const std::size_t stride = padded_lanes;
@@ -79,6 +89,10 @@ struct GalerkinAssembler::Block {
     set_zero(static_h, rows, nodes);
     set_zero(static_g, rows, hats);
     of_y = y.displacements.dense(y.shape_count).transpose();
+    const int points = static_cast<int>(y.midpoints.size());
+    tractions_of_y = y.tractions_at.dense(points).transpose();
+    curls_of_y.resize(points, 3 * nodes);
+    for (int k = 0; k < 3; ++k) curls_of_y.middleCols(k * nodes, nodes) = y.curls_at[k].transpose();
   }
 };
 
@@ -178,8 +192,7 @@ void GalerkinAssembler::add_block_row(const SurfacePatch& y, const Block<T>& blo
                               Eigen::MatrixXd& to) {
     for (std::size_t k = 0; k < nodes.size(); ++k)
       for (int e = 0; e < 9; ++e)
-        to(3 * row + e / 3, 3 * nodes[k] + e % 3) +=
-            from[e](row, static_cast<Eigen::Index>(k));
+        to(3 * row + e / 3, 3 * nodes[k] + e % 3) += from[e](row, static_cast<Eigen::Index>(k));
   };
   add_static(block.static_h, y.nodes, rows.static_h);
   add_static(block.static_g, y.hats, rows.static_g);
@@ -309,10 +322,12 @@ void GalerkinAssembler::add_strain_of_midpoints(const T* uniform, int padded_lan
     }
 }
 
-void GalerkinAssembler::sum_static(const SurfacePatch& x, const SurfacePatch& y,
-                                   std::array<Eigen::MatrixXd, 9>& h,
-                                   std::array<Eigen::MatrixXd, 9>& g) const {
+/// The static parts of two patches, pair by pair of triangles.
+template <class T>
+void GalerkinAssembler::add_static_by_shapes(const SurfacePatch& x, const PatchRows& wanted,
+                                             const SurfacePatch& y, Block<T>& block) const {
   const Material& m = discretisation_.material;
+  Entries &h = block.own_static_h, &g = block.own_static_g;
   set_zero(h, x.shape_count, y.shape_count);
   set_zero(g, x.shape_count, static_cast<Eigen::Index>(y.hats.size()));
   for (std::size_t i = 0; i < x.triangles.size(); ++i)
@@ -330,6 +345,76 @@ void GalerkinAssembler::sum_static(const SurfacePatch& x, const SurfacePatch& y,
             g[e](x.shapes[i][a], y.shapes[k][b]) -= adjoint(row, 3 * b + e % 3);
         }
     }
+  for (int e = 0; e < 9; ++e) {
+    block.static_h[e](wanted.rows, Eigen::all) += wanted.dense_shapes * (h[e] * block.of_y);
+    block.static_g[e](wanted.rows, Eigen::all) += wanted.dense_shapes * g[e];
+  }
+}
+
+/// The static parts of two distant patches by the midpoints of both: D(0) is bilinear in surface
+/// curls (static_hypersingular_kernel()).
+template <class T>
+void GalerkinAssembler::add_static_by_midpoints(const SurfacePatch& x, const PatchRows& wanted,
+                                                const SurfacePatch& y, Block<T>& block) const {
+  const Material& material = discretisation_.material;
+  const double kappa = material.kappa();
+  const StaticTraction traction(kappa);
+  const auto from = static_cast<Eigen::Index>(x.midpoints.size()),
+             to = static_cast<Eigen::Index>(y.midpoints.size()),
+             nodes = static_cast<Eigen::Index>(y.nodes.size());
+  // by kernels, one below the other: from x to
+  constexpr int kForms = StaticSums::kCount - StaticSums::kScalar;
+  Eigen::MatrixXd &forms = block.forms, &adjoint = block.static_adjoint;
+  forms.resize(kForms * from, to);
+  adjoint.resize(9 * from, to);
+  StaticBatch batch;
+  alignas(64) double values[StaticSums::kCount][StaticBatch::kCapacity];
+  for (Eigen::Index i = 0; i < from; ++i) {
+    batch.size = 0;
+    for (const SurfacePatch::Midpoint& p : y.midpoints) batch.add(p.place - x.midpoints[i].place);
+    evaluate_static(x.midpoints[i].normal, traction, batch, values);
+    for (Eigen::Index j = 0; j < to; ++j) {
+      for (int e = 0; e < 9; ++e)
+        adjoint(e * from + i, j) = values[StaticSums::kAdjoint + e][j] * y.midpoints[j].area;
+      for (int k = 0; k < kForms; ++k) forms(k * from + i, j) = values[StaticSums::kScalar + k][j];
+    }
+  }
+  using View = Eigen::Ref<const Eigen::MatrixXd>;
+  const auto product = [](const View& a, const View& b, Eigen::MatrixXd& out) {
+    out = Eigen::MatrixXd::Zero(a.rows(), b.cols());
+    gemm(static_cast<int>(a.rows()), static_cast<int>(b.cols()), static_cast<int>(a.cols()), 1.0,
+         a.data(), static_cast<int>(a.outerStride()), b.data(), static_cast<int>(b.outerStride()),
+         out.data(), static_cast<int>(out.outerStride()));
+  };
+  Eigen::MatrixXd &by_y = block.static_by_y, &sum = block.static_sum;
+  product(adjoint, block.tractions_of_y, by_y);
+  for (int e = 0; e < 9; ++e) {
+    product(wanted.dense_midpoints, by_y.middleRows(e * from, from), sum);
+    block.static_g[e](wanted.rows, Eigen::all) -= sum;
+  }
+
+  product(forms, block.curls_of_y, by_y);  // [1/r, h h^T/r][x] x [axis of the curl at y][node]
+  const auto of_curls = [&](int form, int x_axis, int y_axis) {
+    product(wanted.curls_at[x_axis], by_y.block(form * from, y_axis * nodes, from, nodes), sum);
+    return sum;
+  };
+  const double scale = material.shear_modulus / (4 * kPi);
+  Eigen::MatrixXd crossed[9];
+  for (int e = 0; e < 9; ++e) crossed[e] = of_curls(0, e / 3, e % 3);
+  const Eigen::MatrixXd along = crossed[0] + crossed[4] + crossed[8];
+  constexpr int kTensorEntry[9] = {1, 2, 3, 2, 4, 5, 3, 5, 6};
+  Eigen::MatrixXd tensor[7];
+  for (int k = 1; k < 7; ++k) {
+    tensor[k] = of_curls(k, 0, 0);
+    for (int axis = 1; axis < 3; ++axis) tensor[k] += of_curls(k, axis, axis);
+  }
+  for (int e = 0; e < 9; ++e) {
+    const int r = e / 3, c = e % 3;
+    sum = 2 * (1 - kappa) * tensor[kTensorEntry[e]] - crossed[3 * r + c] -
+          2 * (1 - 2 * kappa) * crossed[3 * c + r];
+    if (r == c) sum += 2 * (1 - kappa) * along;
+    block.static_h[e](wanted.rows, Eigen::all) += scale * sum;
+  }
 }
 
 namespace {
@@ -337,7 +422,7 @@ namespace {
 /// to[rows[k]] += from[k], for `size` numbers each.
 template <class T>
 void add_rows(const std::vector<int>& rows, const AlignedVector<T>& from, std::size_t size,
-                     AlignedVector<T>& to) {
+              AlignedVector<T>& to) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const T* a = &from[k * size];
     T* b = &to[rows[k] * size];
@@ -353,8 +438,8 @@ void GalerkinAssembler::add_patch(const SurfacePatch& x, const PatchRows& wanted
                                   Block<T>& block) const {
   const std::size_t stride = lanes.padded_lanes, entry = 9 * stride;
   const std::size_t nodes = y.nodes.size(), hats = y.hats.size();
-  const bool far = quadrature_.midpoints_suffice(patch_distance(x, y),
-                                                 std::max(x.longest_edge, y.longest_edge));
+  const bool far =
+      quadrature_.midpoints_suffice(patch_distance(x, y), std::max(x.longest_edge, y.longest_edge));
   if (far)
     sum_by_midpoints(x, y, lanes, block);
   else
@@ -383,12 +468,10 @@ void GalerkinAssembler::add_patch(const SurfacePatch& x, const PatchRows& wanted
   }
   add(block.own_strain, 18 * stride, block.strain);
 
-  sum_static(x, y, block.own_static_h, block.own_static_g);
-  for (int e = 0; e < 9; ++e) {
-    block.static_h[e](wanted.rows, Eigen::all) +=
-        wanted.dense_shapes * (block.own_static_h[e] * block.of_y);
-    block.static_g[e](wanted.rows, Eigen::all) += wanted.dense_shapes * block.own_static_g[e];
-  }
+  if (far)
+    add_static_by_midpoints(x, wanted, y, block);
+  else
+    add_static_by_shapes(x, wanted, y, block);
 }
 
 /// What tractions on triangles have with one triangle of x, by load cases.

@@ -79,8 +79,12 @@ class GalerkinAssembler {
                         Block<T>& block) const;
   template <class T>
   void add_strain_of_midpoints(const T* uniform, int padded_lanes, T* out) const;
-  void sum_static(const SurfacePatch& x, const SurfacePatch& y, std::array<Eigen::MatrixXd, 9>& h,
-                  std::array<Eigen::MatrixXd, 9>& g) const;
+  template <class T>
+  void add_static_by_shapes(const SurfacePatch& x, const PatchRows& wanted, const SurfacePatch& y,
+                            Block<T>& block) const;
+  template <class T>
+  void add_static_by_midpoints(const SurfacePatch& x, const PatchRows& wanted,
+                               const SurfacePatch& y, Block<T>& block) const;
   PairScales scales() const;
   Vector6 pressure_of_strain() const;
 

@@ -86,8 +86,7 @@ double triangle_distance(const Vec3* a, const Vec3* b) {
 
 PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, double wave_number)
     : mesh_(mesh),
-      static_choice_(100 * tolerance),
-      dynamic_choice_(1000 * tolerance),
+      choice_(1000 * tolerance),
       wave_number_(wave_number),
       static_order_(static_order(tolerance)),
       dynamic_order_(dynamic_order(tolerance)) {
@@ -123,7 +122,7 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
 }
 
 bool PairQuadrature::midpoints_suffice(double distance, double longest_edge) const {
-  const int rule = dynamic_choice_.choose(distance / longest_edge, wave_number_ * longest_edge);
+  const int rule = choice_.choose(distance / longest_edge, wave_number_ * longest_edge);
   return rule >= 0 && triangle_rules()[rule].degree <= 2;
 }
 
@@ -191,11 +190,9 @@ std::optional<std::array<int, 2>> PairQuadrature::unsplit_rules(int tx, int ty,
     }
     distance = triangle_distance(a, b);
   }
-  const bool is_static = part == KernelPart::static_part;
-  const RuleChoice& choice = is_static ? static_choice_ : dynamic_choice_;
-  const double wave_number = is_static ? 0 : wave_number_;
+  const double wave_number = part == KernelPart::static_part ? 0 : wave_number_;
   const auto rule_of = [&](const Panel& p) {
-    return choice.choose(distance / p.longest_edge, wave_number * p.longest_edge);
+    return choice_.choose(distance / p.longest_edge, wave_number * p.longest_edge);
   };
   const int rule_x = rule_of(x), rule_y = rule_of(y);
   if (rule_x < 0 || rule_y < 0) return std::nullopt;
@@ -204,7 +201,6 @@ std::optional<std::array<int, 2>> PairQuadrature::unsplit_rules(int tx, int ty,
 
 void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
                                    std::vector<PairPoint>& out) const {
-  const RuleChoice& choice = part == KernelPart::static_part ? static_choice_ : dynamic_choice_;
   const double wave_number = part == KernelPart::static_part ? 0 : wave_number_;
   const auto whole = [this](int triangle) {
     Cell c{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}, panels_[triangle].longest_edge, 1};
@@ -221,7 +217,7 @@ void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
     stack.pop_back();
     const double distance = triangle_distance(task.x.place, task.y.place);
     const auto rule_of = [&](const Cell& cell) {
-      const int rule = choice.choose(distance / cell.longest, wave_number * cell.longest);
+      const int rule = choice_.choose(distance / cell.longest, wave_number * cell.longest);
       return rule < 0 && task.depth >= kDeepest ? kTriangleRuleCount - 1 : rule;
     };
     const int rule_x = rule_of(task.x), rule_y = rule_of(task.y);

@@ -59,8 +59,8 @@ class PairQuadrature {
   /// triangles touch or have to be split.
   std::optional<std::array<int, 2>> product_rules(int tx, int ty, KernelPart part) const;
 
-  /// Whether a rule of degree 2 is enough for the dynamic parts of triangles with edges of at most
-  /// `longest_edge` at such a distance [m].
+  /// Whether a rule of degree 2 is enough for triangles with edges of at most `longest_edge` at
+  /// such a distance [m].
   bool midpoints_suffice(double distance, double longest_edge) const;
 
   Vec3 position(int triangle, const double* l) const {
@@ -91,7 +91,7 @@ class PairQuadrature {
   void add_separated(int tx, int ty, KernelPart part, std::vector<PairPoint>& out) const;
 
   const TriangleMesh& mesh_;
-  RuleChoice static_choice_, dynamic_choice_;
+  RuleChoice choice_;
   double wave_number_;
   int static_order_, dynamic_order_;
   std::vector<Panel> panels_;

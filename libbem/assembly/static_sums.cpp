@@ -77,6 +77,7 @@ HWY_AFTER_NAMESPACE();
 namespace bem {
 
 HWY_EXPORT(AccumulateStatic);
+HWY_EXPORT(EvaluateStatic);
 
 void set_shapes(const double* x, const double* y, double weight,
                 double (&shapes)[StaticBatch::kShapes]) {
@@ -86,11 +87,25 @@ void set_shapes(const double* x, const double* y, double weight,
     for (int b = 0; b < 3; ++b) shapes[3 * a + b] = weight * of_x[a] * y[b];
 }
 
+namespace {
+
+/// Whole vectors: what is computed of points that do not exist has to be finite only.
+void pad(StaticBatch& batch) {
+  for (int i = batch.size; i % 8 != 0; ++i)
+    for (auto& component : batch.r) component[i] = 1;
+}
+
+}  // namespace
+
+void evaluate_static(const Vec3& m, const StaticTraction& traction, StaticBatch& batch,
+                     double (*values)[StaticBatch::kCapacity]) {
+  pad(batch);
+  HWY_DYNAMIC_DISPATCH(EvaluateStatic)(m, traction, batch, values);
+}
+
 void accumulate_static(const Vec3& m, const StaticTraction& traction, StaticBatch& batch,
                        StaticSums& sums) {
-  // whole vectors: what is computed of points that do not exist has to be finite only
-  for (int i = batch.size; i % 8 != 0; ++i)
-    for (int k = 0; k < 3; ++k) batch.r[k][i] = 1;
+  pad(batch);
   HWY_DYNAMIC_DISPATCH(AccumulateStatic)(m, traction, batch, sums);
 }
 

@@ -31,6 +31,11 @@ struct StaticSums {
   alignas(64) double values[kCount][StaticBatch::kShapes] = {};
 };
 
+/// The static kernels at the points of a batch, which needs no shapes: values[StaticSums][point].
+/// `m`: the normal at x, times its area if that is wanted in K'.
+void evaluate_static(const Vec3& m, const StaticTraction& traction, StaticBatch& batch,
+                     double (*values)[StaticBatch::kCapacity]);
+
 /// Adds a batch; `m`: the normal at x. Runs on the widest vector unit of the machine.
 void accumulate_static(const Vec3& m, const StaticTraction& traction, StaticBatch& batch,
                        StaticSums& sums);

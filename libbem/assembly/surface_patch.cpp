@@ -18,6 +18,37 @@ int place_of(const std::vector<int>& sorted, int value) {
   return static_cast<int>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
 }
 
+/// See SurfacePatch::curls_at. The hat of corner i has the curl c_i, the bubble of edge (a, b) has
+/// 4 (L_a c_b + L_b c_a).
+std::array<Eigen::MatrixXd, 3> curls_at_midpoints(const TriangleMesh& mesh, const SurfacePatch& p) {
+  std::array<Eigen::MatrixXd, 3> by_shape;
+  for (Eigen::MatrixXd& axis : by_shape)
+    axis = Eigen::MatrixXd::Zero(p.shape_count, static_cast<Eigen::Index>(p.midpoints.size()));
+  const int hats = static_cast<int>(p.hats.size());
+  for (std::size_t t = 0; t < p.triangles.size(); ++t) {
+    const Triangle& corners = mesh.triangles[p.triangles[t]];
+    Vec3 c[3];  // times a third of the area
+    for (int i = 0; i < 3; ++i)
+      c[i] = (mesh.vertices[corners[(i + 1) % 3]] - mesh.vertices[corners[(i + 2) % 3]]) / 6;
+    for (int k = 0; k < 3; ++k) {  // edge from corner k to k + 1; the opposite corner is k + 2
+      const int point = p.shapes[t][3 + k] - hats, next = (k + 1) % 3, opposite = (k + 2) % 3;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto add = [&](int shape, double value) {
+          by_shape[axis](p.shapes[t][shape], point) += value;
+        };
+        for (int i = 0; i < 3; ++i) add(i, c[i][axis]);
+        add(3 + k, 2 * (c[k] + c[next])[axis]);
+        add(3 + next, 2 * c[opposite][axis]);
+        add(3 + opposite, 2 * c[opposite][axis]);
+      }
+    }
+  }
+  const Eigen::MatrixXd of_nodes = p.displacements.dense(p.shape_count);
+  std::array<Eigen::MatrixXd, 3> out;
+  for (int axis = 0; axis < 3; ++axis) out[axis] = of_nodes * by_shape[axis];
+  return out;
+}
+
 SurfacePatch make_patch(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction,
                         std::vector<int> triangles) {
   using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
@@ -84,6 +115,7 @@ SurfacePatch make_patch(const TriangleMesh& mesh, const EdgeReconstruction& reco
     p.displacements_at.add_row(at[k]);
   }
   for (const auto& entries : hats_at) p.tractions_at.add_row(entries);
+  p.curls_at = curls_at_midpoints(mesh, p);
   return p;
 }
 

@@ -36,6 +36,9 @@ struct SurfacePatch {
   std::vector<Midpoint> midpoints;
   SparseRows displacements_at;  ///< by node: midpoints
   SparseRows tractions_at;      ///< by hat: midpoints
+  /// Surface curls (n x gradient) of the nodes' functions at midpoints, times areas [m], by axis:
+  /// nodes x midpoints.
+  std::array<Eigen::MatrixXd, 3> curls_at;
 
   Vec3 low, high;  ///< box
   double longest_edge = 0;

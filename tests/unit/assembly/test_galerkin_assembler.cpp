@@ -114,3 +114,49 @@ TEST_CASE("loads on triangles are those of nodal tractions where these are the s
     }
   CHECK(worst < 2e-6 * largest);
 }
+
+TEST_CASE("distant patches are summed by midpoints as well as by pairs of triangles") {
+  const TriangleMesh nodes = centred(box(Vec3(10, 0.8, 0.8), {10, 1, 1}));
+  const double size = diameter(nodes.vertices);
+  Discretisation d = discretisation("bdf1", size, 0.3);
+  const int n = static_cast<int>(nodes.vertices.size());
+  GalerkinRows<float> rows, exact;
+  GalerkinAssembler(nodes, size, d).assemble(0, n, rows);
+  d.quadrature_tolerance = 1e-8;  // the rule of the midpoints is too coarse for it
+  GalerkinAssembler(nodes, size, d).assemble(0, n, exact);
+  double worst[4] = {}, largest[4] = {};
+  int pairs = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      if ((nodes.vertices[i] - nodes.vertices[j]).norm() < 7) continue;
+      ++pairs;
+      const auto compare = [&](int kind, double found, double expected) {
+        worst[kind] = std::max(worst[kind], std::abs(found - expected));
+        largest[kind] = std::max(largest[kind], std::abs(expected));
+      };
+      for (int e = 0; e < 9; ++e) {
+        const int r = 3 * i + e / 3, c = 3 * j + e % 3;
+        compare(0, rows.static_h(r, c), exact.static_h(r, c));
+        compare(1, rows.static_g(r, c), exact.static_g(r, c));
+        for (int lane = 0; lane < rows.padded_lanes; ++lane) {
+          const int at = e * rows.padded_lanes + lane;
+          compare(2, rows.inertia_block(i, j)[at], exact.inertia_block(i, j)[at]);
+          compare(3, rows.adjoint_block(i, j)[at], exact.adjoint_block(i, j)[at]);
+        }
+      }
+    }
+  CHECK(pairs > 100);
+  // terms of D(0) cancel, the more the farther two nodes are apart: errors are of those of near
+  // ones
+  largest[0] = 1e-2 * exact.static_h.cwiseAbs().maxCoeff();
+  for (int kind = 0; kind < 4; ++kind) {
+    INFO("kind " << kind << ": " << worst[kind] << " of " << largest[kind]);
+    CHECK(worst[kind] < 2e-3 * largest[kind]);
+  }
+  double strain = 0, most = 0;
+  for (std::size_t i = 0; i < rows.strain.size(); ++i) {
+    strain = std::max(strain, std::abs(rows.strain[i] - exact.strain[i]));
+    most = std::max(most, std::abs(exact.strain[i]));
+  }
+  CHECK(strain < 1e-4 * most);
+}
