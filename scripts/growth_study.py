@@ -23,10 +23,10 @@ BODIES = {
     "plate 50:1": ("box", "--size", 1, 1, 0.02, "--divisions", 5, 5, 1),
     "cube": ("box", "--size", 1, 1, 1, "--divisions", 1, 1, 1),
     "tetrahedron": (meshes.tetrahedron,),
-    "star": ("star", "--level", 1),
+    "star": ("star", "--subdivisions", 1),
     "graded block": (meshes.graded, 4),
-    "icosphere 42": ("icosphere", "--level", 1),
-    "icosphere 162": ("icosphere", "--level", 2),
+    "icosphere 42": ("icosphere", "--subdivisions", 1),
+    "icosphere 162": ("icosphere", "--subdivisions", 2),
 }
 RATIOS = (0.3, 0.48, 0.49, 0.5)
 LAMS = (2, 4.5, 10, 30)
