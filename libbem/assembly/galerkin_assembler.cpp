@@ -438,8 +438,8 @@ void GalerkinAssembler::add_patch(const SurfacePatch& x, const PatchRows& wanted
                                   Block<T>& block) const {
   const std::size_t stride = lanes.padded_lanes, entry = 9 * stride;
   const std::size_t nodes = y.nodes.size(), hats = y.hats.size();
-  const bool far =
-      quadrature_.midpoints_suffice(patch_distance(x, y), std::max(x.longest_edge, y.longest_edge));
+  const double distance = patch_distance(x, y), edge = std::max(x.longest_edge, y.longest_edge);
+  const bool far = quadrature_.midpoints_suffice(distance, edge, KernelPart::dynamic_part);
   if (far)
     sum_by_midpoints(x, y, lanes, block);
   else
@@ -468,7 +468,7 @@ void GalerkinAssembler::add_patch(const SurfacePatch& x, const PatchRows& wanted
   }
   add(block.own_strain, 18 * stride, block.strain);
 
-  if (far)
+  if (quadrature_.midpoints_suffice(distance, edge, KernelPart::static_part))
     add_static_by_midpoints(x, wanted, y, block);
   else
     add_static_by_shapes(x, wanted, y, block);

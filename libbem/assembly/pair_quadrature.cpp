@@ -86,7 +86,8 @@ double triangle_distance(const Vec3* a, const Vec3* b) {
 
 PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, double wave_number)
     : mesh_(mesh),
-      choice_(1000 * tolerance),
+      static_choice_(1000 * tolerance),
+      dynamic_choice_(3000 * tolerance),
       wave_number_(wave_number),
       static_order_(static_order(tolerance)),
       dynamic_order_(dynamic_order(tolerance)) {
@@ -121,8 +122,9 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
       }
 }
 
-bool PairQuadrature::midpoints_suffice(double distance, double longest_edge) const {
-  const int rule = choice_.choose(distance / longest_edge, wave_number_ * longest_edge);
+bool PairQuadrature::midpoints_suffice(double distance, double longest_edge,
+                                       KernelPart part) const {
+  const int rule = rule_at(distance, longest_edge, part);
   return rule >= 0 && triangle_rules()[rule].degree <= 2;
 }
 
@@ -190,18 +192,14 @@ std::optional<std::array<int, 2>> PairQuadrature::unsplit_rules(int tx, int ty,
     }
     distance = triangle_distance(a, b);
   }
-  const double wave_number = part == KernelPart::static_part ? 0 : wave_number_;
-  const auto rule_of = [&](const Panel& p) {
-    return choice_.choose(distance / p.longest_edge, wave_number * p.longest_edge);
-  };
-  const int rule_x = rule_of(x), rule_y = rule_of(y);
+  const int rule_x = rule_at(distance, x.longest_edge, part),
+            rule_y = rule_at(distance, y.longest_edge, part);
   if (rule_x < 0 || rule_y < 0) return std::nullopt;
   return std::array<int, 2>{rule_x, rule_y};
 }
 
 void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
                                    std::vector<PairPoint>& out) const {
-  const double wave_number = part == KernelPart::static_part ? 0 : wave_number_;
   const auto whole = [this](int triangle) {
     Cell c{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}, panels_[triangle].longest_edge, 1};
     for (int k = 0; k < 3; ++k) c.place[k] = mesh_.vertices[mesh_.triangles[triangle][k]];
@@ -217,7 +215,7 @@ void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
     stack.pop_back();
     const double distance = triangle_distance(task.x.place, task.y.place);
     const auto rule_of = [&](const Cell& cell) {
-      const int rule = choice_.choose(distance / cell.longest, wave_number * cell.longest);
+      const int rule = rule_at(distance, cell.longest, part);
       return rule < 0 && task.depth >= kDeepest ? kTriangleRuleCount - 1 : rule;
     };
     const int rule_x = rule_of(task.x), rule_y = rule_of(task.y);

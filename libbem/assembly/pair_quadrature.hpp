@@ -61,7 +61,7 @@ class PairQuadrature {
 
   /// Whether a rule of degree 2 is enough for triangles with edges of at most `longest_edge` at
   /// such a distance [m].
-  bool midpoints_suffice(double distance, double longest_edge) const;
+  bool midpoints_suffice(double distance, double longest_edge, KernelPart part) const;
 
   Vec3 position(int triangle, const double* l) const {
     const Triangle& t = mesh_.triangles[triangle];
@@ -86,12 +86,17 @@ class PairQuadrature {
   const std::vector<PairPoint>& touching_points(int tx, int ty, Adjacency adjacency,
                                                 KernelPart part) const;
   std::optional<std::array<int, 2>> unsplit_rules(int tx, int ty, KernelPart part) const;
+  int rule_at(double distance, double longest_edge, KernelPart part) const {
+    return part == KernelPart::static_part
+               ? static_choice_.choose(distance / longest_edge, 0)
+               : dynamic_choice_.choose(distance / longest_edge, wave_number_ * longest_edge);
+  }
   double longest_wave() const;
   int touching_order(int tx, int ty, Adjacency adjacency, KernelPart part) const;
   void add_separated(int tx, int ty, KernelPart part, std::vector<PairPoint>& out) const;
 
   const TriangleMesh& mesh_;
-  RuleChoice choice_;
+  RuleChoice static_choice_, dynamic_choice_;
   double wave_number_;
   int static_order_, dynamic_order_;
   std::vector<Panel> panels_;

@@ -72,7 +72,7 @@ TEST_CASE("the contracted operator of an icosphere agrees with the reference") {
       worst = std::max(worst, difference(found.h.block<3, 3>(3 * a, 3 * b), value));
     }
     std::printf("icosphere, nu %.1f, s %s: %.1e\n", number(p["nu"]), p["s"].dump().c_str(), worst);
-    CHECK(worst < 1e-6);
+    CHECK(worst < 2e-6);
     CHECK((found.h - found.h.transpose()).cwiseAbs().maxCoeff() < 1e-13);
   }
 }
