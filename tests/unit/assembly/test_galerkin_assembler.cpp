@@ -151,12 +151,12 @@ TEST_CASE("distant patches are summed by midpoints as well as by pairs of triang
   largest[0] = 1e-2 * exact.static_h.cwiseAbs().maxCoeff();
   for (int kind = 0; kind < 4; ++kind) {
     INFO("kind " << kind << ": " << worst[kind] << " of " << largest[kind]);
-    CHECK(worst[kind] < 2e-3 * largest[kind]);
+    CHECK(worst[kind] < 4e-3 * largest[kind]);
   }
   double strain = 0, most = 0;
   for (std::size_t i = 0; i < rows.strain.size(); ++i) {
     strain = std::max(strain, std::abs(rows.strain[i] - exact.strain[i]));
     most = std::max(most, std::abs(exact.strain[i]));
   }
-  CHECK(strain < 1e-4 * most);
+  CHECK(strain < 2e-4 * most);
 }
