@@ -91,8 +91,7 @@ class ElasticPart {
 
   /// Between two steps; compliances come again by themselves.
   void visit_state(StateArchive& state) {
-    state(offset_, motion_history_, acceleration_history_, corner_history_,
-          centrifugal_history_);
+    state(offset_, motion_history_, acceleration_history_, corner_history_, centrifugal_history_);
     traction_history_.visit_state(state, tractions_);
     state(solution_memory_);
     state.check(solution_memory_.fits(system_.scheme().initial_components().size(),
