@@ -3,9 +3,8 @@
 #include "assembly/discretisation.hpp"
 #include "assembly/edge_reconstruction.hpp"
 #include "assembly/galerkin_combination.hpp"
-#include "assembly/galerkin_static.hpp"
 #include "assembly/load_assembler.hpp"
-#include "assembly/pair_sums.hpp"
+#include "assembly/patch_block.hpp"
 
 namespace bem {
 
@@ -52,41 +51,15 @@ class GalerkinAssembler {
   const EdgeReconstruction& reconstruction() const { return reconstruction_; }
 
  private:
-  struct PatchRows;
-  template <class T>
-  struct Block;
   template <class T>
   struct LoadPart;
 
   template <class T>
   void assemble_rows(int first, int last, const LaneTable<T>& lanes, GalerkinRows<T>& rows) const;
   template <class T>
-  void add_patch(const SurfacePatch& x, const PatchRows& wanted, const SurfacePatch& y,
-                 const LaneTable<T>& lanes, Block<T>& block) const;
-  template <class T>
-  void add_block_row(const SurfacePatch& y, const Block<T>& block, int row,
+  void add_block_row(const SurfacePatch& y, const PatchBlock<T>& block, int row,
                      GalerkinRows<T>& rows) const;
   void add_mass(int first, int last, Eigen::MatrixXd& g) const;
-
-  template <class T>
-  void sum_pair(int tx, int ty, const LaneTable<T>& lanes, PairBatch& batch,
-                PairScratch<T>& scratch, const PairSums<T>& sums) const;
-  template <class T>
-  void sum_by_shapes(const SurfacePatch& x, const SurfacePatch& y, const LaneTable<T>& lanes,
-                     Block<T>& block) const;
-  template <class T>
-  void sum_by_midpoints(const SurfacePatch& x, const SurfacePatch& y, const LaneTable<T>& lanes,
-                        Block<T>& block) const;
-  template <class T>
-  void add_strain_of_midpoints(const T* uniform, int padded_lanes, T* out) const;
-  template <class T>
-  void add_static_by_shapes(const SurfacePatch& x, const PatchRows& wanted, const SurfacePatch& y,
-                            Block<T>& block) const;
-  template <class T>
-  void add_static_by_midpoints(const SurfacePatch& x, const PatchRows& wanted,
-                               const SurfacePatch& y, Block<T>& block) const;
-  PairScales scales() const;
-  Vector6 pressure_of_strain() const;
 
   template <class T>
   void sum_loads(int tx, const std::vector<PanelLoad>& loads, const LaneTable<T>& lanes,
@@ -99,7 +72,7 @@ class GalerkinAssembler {
   Discretisation discretisation_;
   RadialTable table_;
   LaneTable<float> narrow_table_;
-  PairQuadrature quadrature_;
+  PairIntegrals pairs_;
   EdgeReconstruction reconstruction_;
   std::vector<TriangleBasis> bases_;
   std::vector<SurfacePatch> patches_;

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "assembly/pair_integrals.hpp"
+#include "assembly/surface_patch.hpp"
+
+namespace bem {
+
+/// A 3 x 3 block of numbers that are stored entry by entry.
+using Entries = std::array<Eigen::MatrixXd, 9>;
+
+/// Rows of a patch of x that are wanted: nodes [first, last).
+struct PatchRows {
+  std::vector<int> rows;  ///< counted from the first wanted row
+  SparseRows shapes, midpoints;
+  Eigen::MatrixXd dense_shapes, dense_midpoints;
+  std::array<Eigen::MatrixXd, 3> curls_at;  ///< of SurfacePatch, wanted rows alone
+
+  PatchRows(const SurfacePatch& patch, int first, int last);
+};
+
+/// What one patch of y adds to wanted rows of the matrices (GalerkinRows), and working memory for
+/// it.
+template <class T>
+class PatchBlock {
+ public:
+  AlignedVector<T> inertia, adjoint;  ///< [row][node or hat of y][3x3 entry][padded lane]
+  AlignedVector<T> strain;            ///< [row][3 axes x 6][padded lane]
+  Entries static_h, static_g;         ///< rows x nodes or hats of y
+
+  /// Starts with `rows` rows of zeros.
+  void clear(int rows, const SurfacePatch& y, int padded_lanes);
+  /// Adds what the patch x has with y.
+  void add(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
+           const SurfacePatch& y, const LaneTable<T>& lanes);
+
+ private:
+  void add_dynamic(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
+                   const SurfacePatch& y, const LaneTable<T>& lanes, bool far);
+  void sum_by_shapes(const PairIntegrals& pairs, const SurfacePatch& x, const SurfacePatch& y,
+                     const LaneTable<T>& lanes);
+  void sum_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x, const SurfacePatch& y,
+                        const LaneTable<T>& lanes);
+  void add_static_by_shapes(const PairIntegrals& pairs, const SurfacePatch& x,
+                            const PatchRows& wanted, const SurfacePatch& y);
+  void add_static_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x,
+                               const PatchRows& wanted, const SurfacePatch& y);
+
+  /// Of one patch of x alone, by its rows.
+  AlignedVector<T> some_rows_;
+  /// The same by shapes or midpoints of x and y, and inertia by shapes of x and nodes of y.
+  AlignedVector<T> own_inertia_, own_adjoint_, own_strain_, by_node_;
+  Entries own_static_h_, own_static_g_;
+  Eigen::MatrixXd forms_, static_tractions_, static_by_y_, static_sum_;
+  AlignedVector<T> uniform_;
+  PairBatch pair_batch_;
+  MidpointBatch midpoint_batch_;
+  PairScratch<T> scratch_;
+  Eigen::MatrixXd of_y_;  ///< displacements: shapes x nodes of y
+  /// At midpoints: tractions, midpoints x hats of y; curls, midpoints x nodes of y by axis.
+  Eigen::MatrixXd tractions_of_y_, curls_of_y_;
+};
+
+}  // namespace bem
