@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much motions of free bodies grow per step, without a window: the table of docs/accuracy.md, "Growth".
+"""How much motions of free bodies grow per step, without a window, as a Markdown table.
 Runs bemprecomp --measure-growth for every body, Poisson ratio, time step and scheme, and keeps what it found in
 DEST/growth.json, so that a study that was stopped goes on."""
 import argparse
@@ -16,7 +16,7 @@ from hard import meshes
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DENSITY, SHEAR = 1000.0, 1e6
-# name: (bemshape's arguments or a function of hard/meshes.py with its arguments, extent [m])
+# name: bemshape's arguments, or a function of hard/meshes.py with its arguments
 BODIES = {
     "beam 1 x .2 x .2": ("beam", "--size", 1, 0.2, 0.2, "--divisions", 8, 2, 2),
     "plate 20:1": ("box", "--size", 1, 1, 0.05, "--divisions", 5, 5, 1),

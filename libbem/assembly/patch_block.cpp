@@ -5,18 +5,10 @@
 #include "assembly/static_sums.hpp"
 #include "kernels/tensors.hpp"
 
-#include <algorithm>
-
 namespace bem {
 namespace {
 
 constexpr int kShapes = 6;
-
-template <class T>
-void set_zero(AlignedVector<T>& values, std::size_t size) {
-  values.resize(size);
-  std::fill(values.begin(), values.end(), T(0));
-}
 
 void set_zero(Entries& entries, Eigen::Index rows, Eigen::Index columns) {
   for (Eigen::MatrixXd& e : entries) e = Eigen::MatrixXd::Zero(rows, columns);
@@ -235,21 +227,6 @@ void PatchBlock<T>::add_static_by_midpoints(const PairIntegrals& pairs, const Su
   }
 }
 
-namespace {
-
-/// to[rows[k]] += from[k], for `size` numbers each.
-template <class T>
-void add_rows(const std::vector<int>& rows, const AlignedVector<T>& from, std::size_t size,
-              AlignedVector<T>& to) {
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const T* a = &from[k * size];
-    T* b = &to[rows[k] * size];
-    for (std::size_t i = 0; i < size; ++i) b[i] += a[i];
-  }
-}
-
-}  // namespace
-
 template <class T>
 void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& x,
                                 const PatchRows& wanted, const SurfacePatch& y,
@@ -261,7 +238,7 @@ void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& 
   const auto add_to = [&](AlignedVector<T>& to, const AlignedVector<T>& by_own, std::size_t size) {
     some_rows_.resize(wanted.rows.size() * size);
     combine_rows(of_rows, by_own.data(), size, some_rows_.data());
-    add_rows(wanted.rows, some_rows_, size, to);
+    add_rows(wanted.rows, some_rows_.data(), size, to.data());
   };
   const auto by_node = [&](const SparseRows& of_y, std::size_t own_y,
                            const AlignedVector<T>& from) -> const AlignedVector<T>& {

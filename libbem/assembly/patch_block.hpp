@@ -3,7 +3,25 @@
 #include "assembly/pair_integrals.hpp"
 #include "assembly/surface_patch.hpp"
 
+#include <algorithm>
+
 namespace bem {
+
+template <class T>
+void set_zero(AlignedVector<T>& values, std::size_t size) {
+  values.resize(size);
+  std::fill(values.begin(), values.end(), T(0));
+}
+
+/// to[rows[k]] += from[k], for `size` numbers each.
+template <class T>
+void add_rows(const std::vector<int>& rows, const T* from, std::size_t size, T* to) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const T* a = from + k * size;
+    T* b = to + rows[k] * size;
+    for (std::size_t i = 0; i < size; ++i) b[i] += a[i];
+  }
+}
 
 /// A 3 x 3 block of numbers that are stored entry by entry.
 using Entries = std::array<Eigen::MatrixXd, 9>;
