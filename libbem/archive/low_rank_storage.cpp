@@ -45,6 +45,10 @@ class Reader {
 
   std::unique_ptr<LowRankFamily> read(const std::vector<int>* columns) {
     quantum_ = file_.double_attribute(group_, "quantum");
+    if (file_.has_attribute(group_, kSymmetricAttribute)) {
+      check(file_.int_attribute(group_, kSymmetricAttribute) == 1, kSymmetricAttribute);
+      form_ = MatrixForm::symmetric;
+    }
     check(quantum_ > 0 && std::isnormal(static_cast<float>(quantum_)), "quantum");
     read_tables();
     std::vector<LowRankSlab> slabs;
@@ -64,7 +68,7 @@ class Reader {
     check(row == static_cast<std::int32_t>(size_) && block == block_count(), "slabs");
     for (const Cursor* c : {&analysis_, &synthesis_, &inputs_, &outputs_})
       check(c->position == c->length, c->name);
-    return std::make_unique<LowRankFamily>(size_, count_, quantum_, std::move(slabs));
+    return std::make_unique<LowRankFamily>(size_, count_, quantum_, std::move(slabs), form_);
   }
 
  private:
@@ -168,8 +172,12 @@ class Reader {
       const LowRankBlock block = block_at(b);
       bool keep = true;
       if (columns) {
-        const auto c = std::lower_bound(columns->begin(), columns->end(), block.column_begin);
-        keep = c != columns->end() && *c < block.column_end;
+        const auto meets = [&](int from, int to) {
+          const auto c = std::lower_bound(columns->begin(), columns->end(), from);
+          return c != columns->end() && *c < to;
+        };
+        keep = meets(block.column_begin, block.column_end) ||
+               (form_ == MatrixForm::symmetric && meets(block.row_begin, block.row_end));
       }
       std::size_t bytes = block.plain ? 0 : block.output_basis.bytes();
       for (int k = 0; k < count_; ++k) {
@@ -194,7 +202,8 @@ class Reader {
     return slab;
   }
 
-  /// The blocks of a slab cover every entry of its rows once.
+  /// The blocks of a slab cover every entry of its rows once; of a symmetric matrix those from the
+  /// diagonal block on, of which rows and columns are the same.
   void check_tiling(int begin, int end, std::size_t first, std::size_t last) const {
     std::vector<std::size_t> order(last - first);
     std::iota(order.begin(), order.end(), first);
@@ -203,11 +212,16 @@ class Reader {
     };
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return number(a, 2) < number(b, 2); });
-    std::vector<std::int32_t> covered(static_cast<std::size_t>(end - begin), 0);
+    const bool symmetric = form_ == MatrixForm::symmetric;
+    std::vector<std::int32_t> covered(static_cast<std::size_t>(end - begin), symmetric ? -1 : 0);
     for (std::size_t b : order) {
       check(number(b, 0) >= begin && number(b, 1) <= end, "blocks");
+      const bool on_diagonal =
+          symmetric && number(b, 0) == number(b, 2) && number(b, 1) == number(b, 3);
       for (std::int32_t row = number(b, 0); row < number(b, 1); ++row) {
-        check(covered[row - begin] == number(b, 2) && number(b, 3) > number(b, 2), "blocks");
+        check(covered[row - begin] == (on_diagonal ? -1 : number(b, 2)) &&
+                  number(b, 3) > number(b, 2),
+              "blocks");
         covered[row - begin] = number(b, 3);
       }
     }
@@ -242,6 +256,7 @@ class Reader {
   int count_;
   const BytesReport& report_;
   double quantum_ = 1;
+  MatrixForm form_ = MatrixForm::general;
   Numbers slab_table_, block_table_, coupling_table_;
   Cursor analysis_{"analysis"}, synthesis_{"synthesis"}, inputs_{"input_scales"},
       outputs_{"output_scales"};
@@ -266,6 +281,7 @@ void write_low_rank(Hdf5File& file, const std::string& group, const LowRankFamil
   file.create_group(group);
   file.set_attribute(group, "quantum", family.quantum());
   file.set_attribute(group, "matrices", family.count());
+  if (family.form() == MatrixForm::symmetric) file.set_attribute(group, kSymmetricAttribute, 1);
   file.write(group + "/slabs", slabs, {slabs.size() / 3, 3});
   file.write(group + "/blocks", blocks, {blocks.size() / kBlockNumbers, kBlockNumbers});
   file.write(group + "/couplings", couplings, {couplings.size() / kLayerNumbers, kLayerNumbers});

@@ -7,6 +7,9 @@
 
 namespace bem {
 
+/// Attribute of the group of a symmetric family.
+inline constexpr const char* kSymmetricAttribute = "symmetric";
+
 /// A LowRankFamily in a group of an HDF5 file (docs/archive-format.md). `report` gets the bytes of
 /// large data that have been read or written.
 using BytesReport = std::function<void(std::size_t)>;

@@ -35,39 +35,48 @@ GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
 
 GalerkinAssembler::~GalerkinAssembler() = default;
 
-void GalerkinAssembler::assemble(int first, int last, GalerkinRows<double>& rows) const {
-  assemble_rows(first, last, table_.lanes(), rows);
+void GalerkinAssembler::assemble(int first, int last, MatrixForm form,
+                                 GalerkinRows<double>& rows) const {
+  assemble_rows(first, last, form, table_.lanes(), rows);
 }
 
-void GalerkinAssembler::assemble(int first, int last, GalerkinRows<float>& rows) const {
-  assemble_rows(first, last, narrow_table_, rows);
+void GalerkinAssembler::assemble(int first, int last, MatrixForm form,
+                                 GalerkinRows<float>& rows) const {
+  assemble_rows(first, last, form, narrow_table_, rows);
 }
 
 template <class T>
-void GalerkinAssembler::assemble_rows(int first, int last, const LaneTable<T>& lanes,
-                                      GalerkinRows<T>& rows) const {
+void GalerkinAssembler::assemble_rows(int first, int last, MatrixForm form,
+                                      const LaneTable<T>& lanes, GalerkinRows<T>& rows) const {
   const int n = static_cast<int>(mesh_.vertices.size()), count = last - first;
+  const bool symmetric = form == MatrixForm::symmetric;
   const std::size_t stride = lanes.padded_lanes;
   rows.first = first;
   rows.last = last;
   rows.nodes = n;
   rows.padded_lanes = lanes.padded_lanes;
-  set_zero(rows.inertia, std::size_t(count) * n * 9 * stride);
+  rows.form = form;
+  rows.first_column = symmetric ? first : 0;
+  set_zero(rows.inertia, std::size_t(count) * (n - rows.first_column) * 9 * stride);
   set_zero(rows.adjoint, std::size_t(count) * n * 9 * stride);
   rows.strain.assign(std::size_t(count) * 18 * stride, 0.0);
   rows.static_h = rows.static_g = Eigen::MatrixXd::Zero(3 * count, 3 * n);
 
-  std::vector<int> reached;  // triangles that basis functions of wanted rows do not vanish on
-  for (std::size_t t = 0; t < bases_.size(); ++t) {
-    const std::vector<int>& nodes = bases_[t].vertices;
-    if (std::any_of(nodes.begin(), nodes.end(), [&](int k) { return k >= first && k < last; }))
-      reached.push_back(static_cast<int>(t));
-  }
-  add_mass(reached, first, last, rows.static_g);
-  const std::vector<SurfacePatch> patches =
-      make_patches(mesh_, reconstruction_, reached, kPatchTriangles);
+  // the triangles that basis functions of wanted rows do not vanish on, patch by patch
+  std::vector<SurfacePatch> patches;
   std::vector<PatchRows> wanted;
-  for (const SurfacePatch& x : patches) wanted.emplace_back(x, first, last);
+  for (const SurfacePatch& patch : patches_) {
+    std::vector<int> reached;
+    for (int t : patch.triangles) {
+      const std::vector<int>& nodes = bases_[t].vertices;
+      if (std::any_of(nodes.begin(), nodes.end(), [&](int k) { return k >= first && k < last; }))
+        reached.push_back(t);
+    }
+    if (reached.empty()) continue;
+    add_mass(reached, first, last, rows.static_g);
+    patches.push_back(part_of_patch(mesh_, reconstruction_, patch, std::move(reached)));
+    wanted.emplace_back(patches.back(), first, last);
+  }
 
   // some patches of y at a time, added in their order: the same for any number of threads
   const std::size_t together = 2 * static_cast<std::size_t>(thread_count());
@@ -79,7 +88,8 @@ void GalerkinAssembler::assemble_rows(int first, int last, const LaneTable<T>& l
       blocks[i].clear(count, y, lanes.padded_lanes);
       for (std::size_t k = 0; k < patches.size(); ++k) {
         check_interruption();
-        blocks[i].add(pairs_, patches[k], wanted[k], y, lanes);
+        const bool with_h = !symmetric || y.nodes.back() >= first + wanted[k].rows.front();
+        blocks[i].add(pairs_, patches[k], wanted[k], y, lanes, with_h);
       }
     });
     parallel_for(count, [&](std::size_t row) {
@@ -94,12 +104,12 @@ void GalerkinAssembler::add_block_row(const SurfacePatch& y, const PatchBlock<T>
                                       GalerkinRows<T>& rows) const {
   const std::size_t stride = rows.padded_lanes, size = 9 * stride;
   const auto add = [&](const AlignedVector<T>& from, const std::vector<int>& nodes,
-                       AlignedVector<T>& to) {
+                       int first_column, AlignedVector<T>& to) {
     add_rows(nodes, from.data() + row * nodes.size() * size, size,
-             to.data() + std::size_t(row) * rows.nodes * size);
+             to.data() + std::size_t(row) * (rows.nodes - first_column) * size, first_column);
   };
-  add(block.inertia, y.nodes, rows.inertia);
-  add(block.adjoint, y.hats, rows.adjoint);
+  add(block.inertia, y.nodes, rows.first_column, rows.inertia);
+  add(block.adjoint, y.hats, 0, rows.adjoint);
   for (std::size_t e = 0; e < 18 * stride; ++e)
     rows.strain[row * 18 * stride + e] += block.strain[row * 18 * stride + e];
   const auto add_static = [&](const Entries& from, const std::vector<int>& nodes,

@@ -37,9 +37,8 @@ void GalerkinAssembler::sum_loads(int tx, const std::vector<PanelLoad>& loads,
     Eigen::Matrix<double, 9, Eigen::Dynamic> corners(9, cases);
     for (int b = 0; b < 3; ++b)
       corners.middleRows<3>(3 * b) = (load.corner.value_or(b) == b ? 1.0 : 0.0) * load.traction;
-    PairMatrix unused = PairMatrix::Zero();
     PairTractions adjoint = PairTractions::Zero();
-    add_static_pair(pairs_.quadrature(), m.shear_modulus, m.kappa(), tx, load.triangle, unused,
+    add_static_pair(pairs_.quadrature(), m.shear_modulus, m.kappa(), tx, load.triangle, nullptr,
                     adjoint);
     part.rest -= adjoint * corners;
     if (load.triangle == tx) part.rest += 0.5 * mass_matrix(pairs_.quadrature().area(tx)) * corners;

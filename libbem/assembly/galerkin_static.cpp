@@ -129,13 +129,14 @@ std::array<Vec3, 3> linear_curls(const TriangleMesh& mesh, int triangle, double 
 }  // namespace
 
 void add_static_pair(const PairQuadrature& quadrature, double shear_modulus, double kappa, int tx,
-                     int ty, PairMatrix& h, PairTractions& adjoint) {
+                     int ty, PairMatrix* h, PairTractions& adjoint) {
   const StaticSums sums = static_sums(quadrature, kappa, tx, ty);
   for (int a = 0; a < kShapes; ++a)
     for (int b = 0; b < 3; ++b)
       for (int e = 0; e < 9; ++e)
         adjoint(3 * a + e / 3, 3 * b + e % 3) += sums.values[StaticSums::kAdjoint + e][3 * a + b];
 
+  if (!h) return;
   // the form is bilinear in the curls of both, scalar in these moments
   const Moments moments(sums);
   const auto cx = linear_curls(quadrature.mesh(), tx, quadrature.area(tx));
@@ -159,10 +160,10 @@ void add_static_pair(const PairQuadrature& quadrature, double shear_modulus, dou
     const int in = (i + 1) % 3;
     for (int j = 0; j < 3; ++j) {
       const int jn = (j + 1) % 3;
-      h.block<3, 3>(3 * i, 3 * j) += form(i, j, kAll, kAll);
-      h.block<3, 3>(3 * (3 + i), 3 * j) += 4 * (form(in, j, i, kAll) + form(i, j, in, kAll));
-      h.block<3, 3>(3 * i, 3 * (3 + j)) += 4 * (form(i, jn, kAll, j) + form(i, j, kAll, jn));
-      h.block<3, 3>(3 * (3 + i), 3 * (3 + j)) +=
+      h->block<3, 3>(3 * i, 3 * j) += form(i, j, kAll, kAll);
+      h->block<3, 3>(3 * (3 + i), 3 * j) += 4 * (form(in, j, i, kAll) + form(i, j, in, kAll));
+      h->block<3, 3>(3 * i, 3 * (3 + j)) += 4 * (form(i, jn, kAll, j) + form(i, j, kAll, jn));
+      h->block<3, 3>(3 * (3 + i), 3 * (3 + j)) +=
           16 * (form(in, jn, i, j) + form(in, j, i, jn) + form(i, jn, in, j) + form(i, j, in, jn));
     }
   }

@@ -105,31 +105,35 @@ void LoadShapes(const PairBatch& batch, PairScratch<T>& scratch) {
       scratch.staying[a][f] = static_cast<T>(batch.staying[a][f]);
 }
 
-/// The radial functions at one point for a vector of lanes.
-template <class D, class T = hn::TFromD<D>>
+/// The first radial function that is wanted, with Z or without it: those of J come last.
+template <bool with_inertia>
+constexpr int kFirstFunction = with_inertia ? kAlpha : kDynamicP;
+
+/// The radial functions from `first` on at one point for a vector of lanes.
+template <int first, class D, class T = hn::TFromD<D>>
 HWY_INLINE void EvaluateRadial(D d, std::size_t stride, const T* HWY_RESTRICT c, T local,
                                hn::Vec<D> (&f)[kHypersingularCount]) {
   constexpr int kNodes = LaneTable<T>::kNodes;
   const hn::Vec<D> t = hn::Set(d, local);
 #pragma GCC unroll 9
-  for (int k = 0; k < kHypersingularCount; ++k)
+  for (int k = first; k < kHypersingularCount; ++k)
     f[k] = hn::LoadU(d, c + (k * kNodes + kNodes - 1) * stride);
 #pragma GCC unroll 8
   for (int degree = kNodes - 2; degree >= 0; --degree)
 #pragma GCC unroll 9
-    for (int k = 0; k < kHypersingularCount; ++k)
+    for (int k = first; k < kHypersingularCount; ++k)
       f[k] = hn::MulAdd(f[k], t, hn::LoadU(d, c + (k * kNodes + degree) * stride));
 }
 
 /// The same at the points of a fibre: radial[function][point].
-template <class D, class T = hn::TFromD<D>>
+template <int first, class D, class T = hn::TFromD<D>>
 HWY_INLINE void EvaluateFibre(D d, const LaneTable<T>& table, std::size_t lane, int begin, int end,
                               PairScratch<T>& scratch) {
   hn::Vec<D> f[kHypersingularCount];
   for (int q = begin; q < end; ++q) {
-    EvaluateRadial(d, table.padded_lanes, scratch.interval[q] + lane, scratch.local[q], f);
+    EvaluateRadial<first>(d, table.padded_lanes, scratch.interval[q] + lane, scratch.local[q], f);
 #pragma GCC unroll 9
-    for (int k = 0; k < kHypersingularCount; ++k)
+    for (int k = first; k < kHypersingularCount; ++k)
       hn::Store(f[k], d,
                 scratch.radial + (k * PairBatch::kLongestFibre + q - begin) * hn::Lanes(d));
   }
@@ -263,7 +267,7 @@ HWY_INLINE void AccumulateLanes(D d, std::size_t lane, const LaneTable<T>& table
   for (int f = 0; f < batch.fibres; ++f) {
     const int begin = batch.begin[f], end = batch.begin[f + 1];
     const std::size_t at = f * hn::Lanes(d);
-    EvaluateFibre(d, table, lane, begin, end, scratch);
+    EvaluateFibre<kFirstFunction<with_inertia>>(d, table, lane, begin, end, scratch);
     if constexpr (with_inertia)
       SumTensor<5, 6>(d, kInertiaTensor, 1, begin, end, scratch, inertia + at);
     SumTensor<3, kOfAdjoint>(d, kAdjointTensor, x_stays ? 0 : 1, begin, end, scratch, adjoint + at);
@@ -326,7 +330,7 @@ void AccumulatePair(const LaneTable<T>& table, const PairScales& scales, const V
 }
 
 /// One vector of lanes of MidpointSums.
-template <class D, class T = hn::TFromD<D>>
+template <bool with_inertia, class D, class T = hn::TFromD<D>>
 HWY_INLINE void EvaluateMidpointLanes(D d, std::size_t lane, const LaneTable<T>& table, int size,
                                       PairScratch<T>& scratch, const MidpointSums<T>& sums) {
   using V = hn::Vec<D>;
@@ -334,21 +338,23 @@ HWY_INLINE void EvaluateMidpointLanes(D d, std::size_t lane, const LaneTable<T>&
   V pressure[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   for (int q = 0; q < size; ++q) {
     V f[kHypersingularCount];
-    EvaluateRadial(d, stride, scratch.interval[q] + lane, scratch.local[q], f);
+    EvaluateRadial<kFirstFunction<with_inertia>>(d, stride, scratch.interval[q] + lane,
+                                                 scratch.local[q], f);
     const auto at = [&](int row) { return hn::Set(d, scratch.coefficient[row][q]); };
-    T* HWY_RESTRICT inertia = sums.inertia + 9 * q * stride + lane;
     T* HWY_RESTRICT adjoint = sums.adjoint + 9 * q * stride + lane;
     const V area = hn::Set(d, scratch.moving[0][q]);
     const V p = hn::Mul(area, f[kDynamicP]), s = hn::Mul(area, f[kDynamicS]),
             t = hn::Mul(area, f[kDynamicQ]);
 #pragma GCC unroll 9
     for (int e = 0; e < 9; ++e) {
-      V z = hn::Mul(at(kOfAlpha + e), f[kAlpha]);
-      z = hn::MulAdd(at(kOfBeta + e), f[kBeta], z);
-      z = hn::MulAdd(at(kOfGamma + e), f[kGamma], z);
-      z = hn::MulAdd(at(kOfDelta + e), f[kDelta], z);
-      z = hn::MulAdd(at(kOfEpsilon + e), f[kEpsilon], z);
-      hn::StoreU(z, d, inertia + e * stride);
+      if constexpr (with_inertia) {
+        V z = hn::Mul(at(kOfAlpha + e), f[kAlpha]);
+        z = hn::MulAdd(at(kOfBeta + e), f[kBeta], z);
+        z = hn::MulAdd(at(kOfGamma + e), f[kGamma], z);
+        z = hn::MulAdd(at(kOfDelta + e), f[kDelta], z);
+        z = hn::MulAdd(at(kOfEpsilon + e), f[kEpsilon], z);
+        hn::StoreU(z, d, sums.inertia + (9 * q + e) * stride + lane);
+      }
       V j = hn::Mul(at(kOfP + e), p);
       j = hn::MulAdd(at(kOfQ + e), t, j);
       j = hn::MulAdd(at(kOfS + e), s, j);
@@ -392,7 +398,10 @@ void EvaluateMidpoints(const LaneTable<T>& table, const PairScales& scales, cons
       scratch.moving[1 + k][q] = static_cast<T>(batch.n[k][q] / batch.area[q]);
   }
   ForLanes<T>(table.padded_lanes, [&](auto d, std::size_t lane) {
-    EvaluateMidpointLanes(d, lane, table, batch.size, scratch, sums);
+    if (sums.inertia)
+      EvaluateMidpointLanes<true>(d, lane, table, batch.size, scratch, sums);
+    else
+      EvaluateMidpointLanes<false>(d, lane, table, batch.size, scratch, sums);
   });
 }
 

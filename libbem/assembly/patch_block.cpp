@@ -50,18 +50,18 @@ void PatchBlock<T>::clear(int rows, const SurfacePatch& y, int padded_lanes) {
 /// The dynamic sums of two patches by the shapes of both, pair by pair of triangles.
 template <class T>
 void PatchBlock<T>::sum_by_shapes(const PairIntegrals& pairs, const SurfacePatch& x,
-                                  const SurfacePatch& y, const LaneTable<T>& lanes) {
+                                  const SurfacePatch& y, const LaneTable<T>& lanes, bool with_h) {
   const std::size_t stride = lanes.padded_lanes, entry = 9 * stride, hats = y.hats.size();
-  set_zero(own_inertia_, x.shape_count * y.shape_count * entry);
+  if (with_h) set_zero(own_inertia_, x.shape_count * y.shape_count * entry);
   set_zero(own_adjoint_, x.shape_count * hats * entry);
   set_zero(own_strain_, x.shape_count * 18 * stride);
   for (std::size_t i = 0; i < x.triangles.size(); ++i)
     for (std::size_t k = 0; k < y.triangles.size(); ++k) {
       set_zero(uniform_, PairSums<T>::kUniform * kShapes * stride);
-      PairSums<T> sums;
+      PairSums<T> sums = {};
       for (int a = 0; a < kShapes; ++a) {
         const std::size_t shape = x.shapes[i][a];
-        for (int b = 0; b < kShapes; ++b)
+        for (int b = 0; b < kShapes && with_h; ++b)
           sums.inertia[b][a] = &own_inertia_[(shape * y.shape_count + y.shapes[k][b]) * entry];
         for (int b = 0; b < 3; ++b)
           sums.adjoint[b][a] = &own_adjoint_[(shape * hats + y.shapes[k][b]) * entry];
@@ -107,10 +107,11 @@ void add_strain_of_midpoints(const PairIntegrals& pairs, const T* uniform, int p
 /// The dynamic sums of two distant patches by the midpoints of both.
 template <class T>
 void PatchBlock<T>::sum_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x,
-                                     const SurfacePatch& y, const LaneTable<T>& lanes) {
+                                     const SurfacePatch& y, const LaneTable<T>& lanes,
+                                     bool with_h) {
   const std::size_t stride = lanes.padded_lanes, entry = 9 * stride;
   const std::size_t from = x.midpoints.size(), to = y.midpoints.size();
-  own_inertia_.resize(from * to * entry);
+  if (with_h) own_inertia_.resize(from * to * entry);
   own_adjoint_.resize(from * to * entry);
   set_zero(own_strain_, from * 18 * stride);
   uniform_.resize(MidpointSums<T>::kUniform * stride);
@@ -125,8 +126,8 @@ void PatchBlock<T>::sum_by_midpoints(const PairIntegrals& pairs, const SurfacePa
       }
       batch.area[q] = p.area;
     }
-    const MidpointSums<T> sums = {&own_inertia_[i * to * entry], &own_adjoint_[i * to * entry],
-                                  uniform_.data()};
+    const MidpointSums<T> sums = {with_h ? &own_inertia_[i * to * entry] : nullptr,
+                                  &own_adjoint_[i * to * entry], uniform_.data()};
     evaluate_midpoints(lanes, pairs.scales(), x.midpoints[i].normal, batch, scratch_, sums);
     add_strain_of_midpoints(pairs, sums.uniform, lanes.padded_lanes, &own_strain_[i * 18 * stride]);
   }
@@ -135,7 +136,8 @@ void PatchBlock<T>::sum_by_midpoints(const PairIntegrals& pairs, const SurfacePa
 /// The static parts of two patches, pair by pair of triangles.
 template <class T>
 void PatchBlock<T>::add_static_by_shapes(const PairIntegrals& pairs, const SurfacePatch& x,
-                                         const PatchRows& wanted, const SurfacePatch& y) {
+                                         const PatchRows& wanted, const SurfacePatch& y,
+                                         bool with_h) {
   const Material& m = pairs.material();
   Entries &h = own_static_h_, &g = own_static_g_;
   set_zero(h, x.shape_count, y.shape_count);
@@ -145,18 +147,18 @@ void PatchBlock<T>::add_static_by_shapes(const PairIntegrals& pairs, const Surfa
       PairMatrix form = PairMatrix::Zero();
       PairTractions tractions = PairTractions::Zero();
       add_static_pair(pairs.quadrature(), m.shear_modulus, m.kappa(), x.triangles[i],
-                      y.triangles[k], form, tractions);
+                      y.triangles[k], with_h ? &form : nullptr, tractions);
       for (int e = 0; e < 9; ++e)
         for (int a = 0; a < kShapes; ++a) {
           const int row = 3 * a + e / 3;
-          for (int b = 0; b < kShapes; ++b)
+          for (int b = 0; b < kShapes && with_h; ++b)
             h[e](x.shapes[i][a], y.shapes[k][b]) += form(row, 3 * b + e % 3);
           for (int b = 0; b < 3; ++b)
             g[e](x.shapes[i][a], y.shapes[k][b]) -= tractions(row, 3 * b + e % 3);
         }
     }
   for (int e = 0; e < 9; ++e) {
-    static_h[e](wanted.rows, Eigen::all) += wanted.dense_shapes * (h[e] * of_y_);
+    if (with_h) static_h[e](wanted.rows, Eigen::all) += wanted.dense_shapes * (h[e] * of_y_);
     static_g[e](wanted.rows, Eigen::all) += wanted.dense_shapes * g[e];
   }
 }
@@ -165,7 +167,8 @@ void PatchBlock<T>::add_static_by_shapes(const PairIntegrals& pairs, const Surfa
 /// curls (static_hypersingular_kernel()).
 template <class T>
 void PatchBlock<T>::add_static_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x,
-                                            const PatchRows& wanted, const SurfacePatch& y) {
+                                            const PatchRows& wanted, const SurfacePatch& y,
+                                            bool with_h) {
   const Material& material = pairs.material();
   const double kappa = material.kappa();
   const StaticTraction traction(kappa);
@@ -203,6 +206,7 @@ void PatchBlock<T>::add_static_by_midpoints(const PairIntegrals& pairs, const Su
     static_g[e](wanted.rows, Eigen::all) -= sum;
   }
 
+  if (!with_h) return;
   product(forms, curls_of_y_, by_y);  // [1/r, h h^T/r][x] x [axis of the curl at y][node]
   const auto of_curls = [&](int form, int x_axis, int y_axis) {
     product(wanted.curls_at[x_axis], by_y.block(form * from, y_axis * nodes, from, nodes), sum);
@@ -230,7 +234,7 @@ void PatchBlock<T>::add_static_by_midpoints(const PairIntegrals& pairs, const Su
 template <class T>
 void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& x,
                                 const PatchRows& wanted, const SurfacePatch& y,
-                                const LaneTable<T>& lanes, bool far) {
+                                const LaneTable<T>& lanes, bool with_h, bool far) {
   const std::size_t entry = 9 * static_cast<std::size_t>(lanes.padded_lanes);
   const std::size_t nodes = y.nodes.size(), hats = y.hats.size();
   const std::size_t own_x = far ? x.midpoints.size() : x.shape_count;
@@ -249,12 +253,13 @@ void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& 
   };
   if (far) {
     const std::size_t points = y.midpoints.size();
-    sum_by_midpoints(pairs, x, y, lanes);
-    add_to(inertia, by_node(y.displacements_at, points, own_inertia_), nodes * entry);
+    sum_by_midpoints(pairs, x, y, lanes, with_h);
+    if (with_h) add_to(inertia, by_node(y.displacements_at, points, own_inertia_), nodes * entry);
     add_to(adjoint, by_node(y.tractions_at, points, own_adjoint_), hats * entry);
   } else {
-    sum_by_shapes(pairs, x, y, lanes);
-    add_to(inertia, by_node(y.displacements, y.shape_count, own_inertia_), nodes * entry);
+    sum_by_shapes(pairs, x, y, lanes, with_h);
+    if (with_h)
+      add_to(inertia, by_node(y.displacements, y.shape_count, own_inertia_), nodes * entry);
     add_to(adjoint, own_adjoint_, hats * entry);
   }
   add_to(strain, own_strain_, 2 * entry);
@@ -262,16 +267,16 @@ void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& 
 
 template <class T>
 void PatchBlock<T>::add(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
-                        const SurfacePatch& y, const LaneTable<T>& lanes) {
+                        const SurfacePatch& y, const LaneTable<T>& lanes, bool with_h) {
   const double distance = patch_distance(x, y), edge = std::max(x.longest_edge, y.longest_edge);
   const auto far = [&](KernelPart part) {
     return pairs.quadrature().midpoints_suffice(distance, edge, part);
   };
-  add_dynamic(pairs, x, wanted, y, lanes, far(KernelPart::dynamic_part));
+  add_dynamic(pairs, x, wanted, y, lanes, with_h, far(KernelPart::dynamic_part));
   if (far(KernelPart::static_part))
-    add_static_by_midpoints(pairs, x, wanted, y);
+    add_static_by_midpoints(pairs, x, wanted, y, with_h);
   else
-    add_static_by_shapes(pairs, x, wanted, y);
+    add_static_by_shapes(pairs, x, wanted, y, with_h);
 }
 
 template class PatchBlock<float>;

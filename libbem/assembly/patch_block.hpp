@@ -13,12 +13,13 @@ void set_zero(AlignedVector<T>& values, std::size_t size) {
   std::fill(values.begin(), values.end(), T(0));
 }
 
-/// to[rows[k]] += from[k], for `size` numbers each.
+/// to[rows[k] - first] += from[k], for `size` numbers each and rows from `first` on.
 template <class T>
-void add_rows(const std::vector<int>& rows, const T* from, std::size_t size, T* to) {
+void add_rows(const std::vector<int>& rows, const T* from, std::size_t size, T* to, int first = 0) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k] < first) continue;
     const T* a = from + k * size;
-    T* b = to + rows[k] * size;
+    T* b = to + (rows[k] - first) * size;
     for (std::size_t i = 0; i < size; ++i) b[i] += a[i];
   }
 }
@@ -28,7 +29,7 @@ using Entries = std::array<Eigen::MatrixXd, 9>;
 
 /// Rows of a patch of x that are wanted: nodes [first, last).
 struct PatchRows {
-  std::vector<int> rows;  ///< counted from the first wanted row
+  std::vector<int> rows;  ///< counted from the first wanted row, ascending
   SparseRows shapes, midpoints;
   Eigen::MatrixXd dense_shapes, dense_midpoints;
   std::array<Eigen::MatrixXd, 3> curls_at;  ///< of SurfacePatch, wanted rows alone
@@ -47,21 +48,21 @@ class PatchBlock {
 
   /// Starts with `rows` rows of zeros.
   void clear(int rows, const SurfacePatch& y, int padded_lanes);
-  /// Adds what the patch x has with y.
+  /// Adds what the patch x has with y: to all matrices, or to those of tractions alone.
   void add(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
-           const SurfacePatch& y, const LaneTable<T>& lanes);
+           const SurfacePatch& y, const LaneTable<T>& lanes, bool with_h);
 
  private:
   void add_dynamic(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
-                   const SurfacePatch& y, const LaneTable<T>& lanes, bool far);
+                   const SurfacePatch& y, const LaneTable<T>& lanes, bool with_h, bool far);
   void sum_by_shapes(const PairIntegrals& pairs, const SurfacePatch& x, const SurfacePatch& y,
-                     const LaneTable<T>& lanes);
+                     const LaneTable<T>& lanes, bool with_h);
   void sum_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x, const SurfacePatch& y,
-                        const LaneTable<T>& lanes);
+                        const LaneTable<T>& lanes, bool with_h);
   void add_static_by_shapes(const PairIntegrals& pairs, const SurfacePatch& x,
-                            const PatchRows& wanted, const SurfacePatch& y);
+                            const PatchRows& wanted, const SurfacePatch& y, bool with_h);
   void add_static_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x,
-                               const PatchRows& wanted, const SurfacePatch& y);
+                               const PatchRows& wanted, const SurfacePatch& y, bool with_h);
 
   /// Of one patch of x alone, by its rows.
   AlignedVector<T> some_rows_;

@@ -173,6 +173,15 @@ std::vector<SurfacePatch> make_patches(const TriangleMesh& mesh,
   return patches;
 }
 
+SurfacePatch part_of_patch(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction,
+                           const SurfacePatch& patch, std::vector<int> triangles) {
+  SurfacePatch part = make_patch(mesh, reconstruction, std::move(triangles));
+  part.low = patch.low;
+  part.high = patch.high;
+  part.longest_edge = patch.longest_edge;
+  return part;
+}
+
 double patch_distance(const SurfacePatch& a, const SurfacePatch& b) {
   return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm();
 }

@@ -49,6 +49,11 @@ std::vector<SurfacePatch> make_patches(const TriangleMesh& mesh,
                                        const EdgeReconstruction& reconstruction,
                                        const std::vector<int>& triangles, int most);
 
+/// What belongs to some triangles of a patch. Box and edge remain those of the patch, so that what
+/// depends on them does not depend on which triangles are asked for.
+SurfacePatch part_of_patch(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction,
+                           const SurfacePatch& patch, std::vector<int> triangles);
+
 /// Distance of the boxes [m].
 double patch_distance(const SurfacePatch& a, const SurfacePatch& b);
 

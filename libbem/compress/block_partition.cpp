@@ -97,4 +97,18 @@ std::vector<Slab> make_partition(const std::vector<Vec3>& nodes, const Partition
   return Partition(nodes, options).slabs();
 }
 
+const Slab& typical_slab(const std::vector<Slab>& slabs, MatrixForm form) {
+  return form == MatrixForm::symmetric ? slabs.front() : slabs[slabs.size() / 2];
+}
+
+std::vector<Slab> with_form(std::vector<Slab> slabs, MatrixForm form) {
+  if (form == MatrixForm::general) return slabs;
+  for (Slab& slab : slabs)
+    slab.blocks.erase(
+        std::remove_if(slab.blocks.begin(), slab.blocks.end(),
+                       [](const NodeBlock& b) { return b.column_begin < b.row_begin; }),
+        slab.blocks.end());
+  return slabs;
+}
+
 }  // namespace bem

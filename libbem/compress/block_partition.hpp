@@ -1,5 +1,6 @@
 #pragma once
 
+#include "algebra/matrix_form.hpp"
 #include "base/types.hpp"
 
 #include <vector>
@@ -32,5 +33,13 @@ struct Slab {
 /// Tiles the square matrix of all pairs of nodes with blocks, slab by slab. `nodes`: in the order
 /// of recursive bisection (mesh/bisection.hpp), whose ranges are the clusters. O(n) blocks.
 std::vector<Slab> make_partition(const std::vector<Vec3>& nodes, const PartitionOptions& options);
+
+/// The blocks that a matrix of this form stores: of a symmetric one those on the diagonal, whose
+/// rows and columns are the same, and those to the right of them.
+std::vector<Slab> with_form(std::vector<Slab> slabs, MatrixForm form);
+
+/// A slab to learn about such matrices from: one of the middle, or of symmetric ones the first,
+/// whose blocks are those of whole rows.
+const Slab& typical_slab(const std::vector<Slab>& slabs, MatrixForm form);
 
 }  // namespace bem

@@ -81,10 +81,25 @@ void load_column(const Rectangle& part, const std::uint8_t* data, int column, fl
 }
 
 template <class T>
+void load_row(const Rectangle& part, const std::uint8_t* data, int row, float* out) {
+  const T* from = reinterpret_cast<const T*>(data + part.offset) + (row - part.row);
+  for (int j = 0; j < part.columns; ++j)
+    out[part.column + j] = static_cast<float>(from[static_cast<std::size_t>(j) * part.rows]);
+}
+
+template <class T>
 void multiply(const Rectangle& part, const std::uint8_t* data, const float* x, float* y) {
   multiply_columns(reinterpret_cast<const T*>(data + part.offset),
                    static_cast<std::size_t>(part.rows), static_cast<std::size_t>(part.columns),
                    x + part.column, y + part.row);
+}
+
+template <class T>
+void multiply_transposed(const Rectangle& part, const std::uint8_t* data, const float* x,
+                         float* y) {
+  multiply_columns_transposed(
+      reinterpret_cast<const T*>(data + part.offset), static_cast<std::size_t>(part.rows),
+      static_cast<std::size_t>(part.columns), x + part.row, y + part.column);
 }
 
 /// Calls the instance of a function template for the type of a layer.
@@ -148,9 +163,24 @@ void load_layers_column(const Layers& layers, const std::uint8_t* data, int colu
   });
 }
 
+void load_layers_row(const Layers& layers, const std::uint8_t* data, int row, float* out) {
+  std::fill_n(out, layers.stored_columns(), 0.0F);
+  for_each_rectangle(layers, [&](const Rectangle& part) {
+    if (row < part.row || row >= part.row + part.rows) return;
+    BEM_FOR_LAYER(part.layer, load_row, part, data, row, out)
+  });
+}
+
 void multiply_layers(const Layers& layers, const std::uint8_t* data, const float* x, float* y) {
   for_each_rectangle(
       layers, [&](const Rectangle& part) { BEM_FOR_LAYER(part.layer, multiply, part, data, x, y) });
+}
+
+void multiply_layers_transposed(const Layers& layers, const std::uint8_t* data, const float* x,
+                                float* y) {
+  for_each_rectangle(layers, [&](const Rectangle& part) {
+    BEM_FOR_LAYER(part.layer, multiply_transposed, part, data, x, y)
+  });
 }
 
 }  // namespace bem

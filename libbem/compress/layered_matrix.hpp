@@ -38,9 +38,16 @@ FloatMatrix load_layers(const Layers& layers, const std::uint8_t* data);
 /// One stored column, stored_rows() numbers.
 void load_layers_column(const Layers& layers, const std::uint8_t* data, int column, float* out);
 
+/// One stored row, stored_columns() numbers.
+void load_layers_row(const Layers& layers, const std::uint8_t* data, int row, float* out);
+
 /// y[i] += sum_j a(i, j) x[j] for the stored rows and columns, in single precision. Every byte is
 /// read once. Pure, on the widest vector unit of the machine. `data` is aligned to 4 bytes and
 /// followed by 64 bytes that may be read.
 void multiply_layers(const Layers& layers, const std::uint8_t* data, const float* x, float* y);
+
+/// y[j] += sum_i a(i, j) x[i], in the same way.
+void multiply_layers_transposed(const Layers& layers, const std::uint8_t* data, const float* x,
+                                float* y);
 
 }  // namespace bem

@@ -15,4 +15,12 @@ void multiply_columns(const std::int16_t* a, std::size_t rows, std::size_t colum
 void multiply_columns(const float* a, std::size_t rows, std::size_t columns, const float* x,
                       float* y);
 
+/// y[j] += sum_i a[j*rows + i] x[i] for the same matrices.
+void multiply_columns_transposed(const std::int8_t* a, std::size_t rows, std::size_t columns,
+                                 const float* x, float* y);
+void multiply_columns_transposed(const std::int16_t* a, std::size_t rows, std::size_t columns,
+                                 const float* x, float* y);
+void multiply_columns_transposed(const float* a, std::size_t rows, std::size_t columns,
+                                 const float* x, float* y);
+
 }  // namespace bem

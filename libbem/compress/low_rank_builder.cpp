@@ -45,14 +45,16 @@ struct LowRankBuilder::Encoded {
   }
 };
 
-LowRankBuilder::LowRankBuilder(std::vector<Slab> partition, int count, double quantum)
-    : partition_(std::move(partition)), count_(count), quantum_(quantum) {}
+LowRankBuilder::LowRankBuilder(std::vector<Slab> partition, int count, double quantum,
+                               MatrixForm form)
+    : partition_(std::move(partition)), count_(count), quantum_(quantum), form_(form) {}
 
 /// Of every `every`-th block.
 double LowRankBuilder::squared_error_of_blocks(const Slab& slab,
                                                const std::vector<MatrixView<float>>& matrices,
                                                double quantum, std::size_t every) {
-  const LowRankBuilder builder({slab}, static_cast<int>(matrices.size()), quantum);
+  const LowRankBuilder builder({slab}, static_cast<int>(matrices.size()), quantum,
+                               MatrixForm::general);
   const std::size_t blocks = (slab.blocks.size() + every - 1) / every;
   std::vector<double> errors(blocks);
   parallel_for(blocks, [&](std::size_t i) {
@@ -154,6 +156,7 @@ void LowRankBuilder::add_rows(const std::vector<MatrixView<float>>& matrices) {
   require(slabs_.size() < partition_.size() && static_cast<int>(matrices.size()) == count_,
           "a slab has its rows of every matrix");
   const Slab& slab = partition_[slabs_.size()];
+  const bool symmetric = form_ == MatrixForm::symmetric;
   std::vector<Encoded> encoded(slab.blocks.size());
   parallel_for(slab.blocks.size(), [&](std::size_t b) {
     encoded[b] = encode(slab.blocks[b], slab.row_begin, matrices);
@@ -175,11 +178,14 @@ void LowRankBuilder::add_rows(const std::vector<MatrixView<float>>& matrices) {
   join(out.synthesis, &Encoded::synthesis);
   for (const Encoded& e : encoded) {
     out.blocks.push_back(e.block);
-    squared_error_ += e.squared_error;
+    const bool mirrored = symmetric && e.block.column_begin >= e.block.row_end;
+    squared_error_ += mirrored ? 2 * e.squared_error : e.squared_error;
   }
   for (const MatrixView<float>& m : matrices)
-    for (Eigen::Index j = 0; j < m.cols(); ++j)
-      squared_norm_ += m.col(j).cast<double>().squaredNorm();
+    for (Eigen::Index j = symmetric ? out.row_begin : 0; j < m.cols(); ++j) {
+      const double squares = m.col(j).cast<double>().squaredNorm();
+      squared_norm_ += symmetric && j >= out.row_end ? 2 * squares : squares;
+    }
   slabs_.push_back(std::move(out));
 }
 
@@ -190,7 +196,7 @@ double LowRankBuilder::error() const {
 std::unique_ptr<MatrixFamily> LowRankBuilder::finish() {
   require(slabs_.size() == partition_.size(), "all slabs have been added");
   return std::make_unique<LowRankFamily>(3 * static_cast<std::size_t>(partition_.back().row_end),
-                                         count_, quantum_, std::move(slabs_));
+                                         count_, quantum_, std::move(slabs_), form_);
 }
 
 }  // namespace bem

@@ -10,8 +10,10 @@ namespace bem {
 /// there at a time. Bit-identical for any number of threads.
 class LowRankBuilder : public FamilyBuilder<float> {
  public:
-  /// `partition`: of nodes, each of which has three unknowns. `quantum`: see choose_quantum().
-  LowRankBuilder(std::vector<Slab> partition, int count, double quantum);
+  /// `partition`: of nodes, each of which has three unknowns, for matrices of this form. Of
+  /// symmetric ones the entries below the slabs' own diagonal blocks need not be there. `quantum`:
+  /// see choose_quantum().
+  LowRankBuilder(std::vector<Slab> partition, int count, double quantum, MatrixForm form);
 
   const std::vector<Slab>& partition() const { return partition_; }
   /// The unit of coupling entries with which the Frobenius norm of the errors of the whole family
@@ -37,6 +39,7 @@ class LowRankBuilder : public FamilyBuilder<float> {
   std::vector<Slab> partition_;
   int count_;
   double quantum_;
+  MatrixForm form_;
   std::vector<LowRankSlab> slabs_;
   double squared_error_ = 0, squared_norm_ = 0;
 };

@@ -5,6 +5,8 @@
 #include "base/parallel.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <tuple>
 
 namespace bem {
 namespace {
@@ -29,6 +31,10 @@ void add_product(Eigen::Ref<const FloatMatrix> a, Eigen::Ref<const FloatMatrix> 
               static_cast<int>(b.outerStride()), c.data(), static_cast<int>(c.outerStride()));
 }
 
+void scale(const float* scales, int count, float* values) {
+  for (int i = 0; i < count; ++i) values[i] *= scales[i];
+}
+
 /// Positions of those of the indices that are in [begin, end).
 std::vector<int> positions_in(const std::vector<int>& indices, int begin, int end) {
   std::vector<int> out;
@@ -40,8 +46,8 @@ std::vector<int> positions_in(const std::vector<int>& indices, int begin, int en
 }  // namespace
 
 LowRankFamily::LowRankFamily(std::size_t size, int count, double quantum,
-                             std::vector<LowRankSlab> slabs)
-    : size_(size), count_(count), quantum_(quantum), slabs_(std::move(slabs)) {
+                             std::vector<LowRankSlab> slabs, MatrixForm form)
+    : size_(size), count_(count), quantum_(quantum), form_(form), slabs_(std::move(slabs)) {
   for (LowRankSlab& slab : slabs_) {
     std::size_t analysis = 0, synthesis = 0, inputs = 0, outputs = 0;
     std::vector<Place> places;
@@ -63,6 +69,8 @@ LowRankFamily::LowRankFamily(std::size_t size, int count, double quantum,
         inputs += block.input_rank();
         outputs += block.output_rank();
         coefficients_ += block.input_rank();
+        p.mirrored_coefficients = coefficients_;
+        if (is_mirrored(block)) coefficients_ += block.output_rank();
       }
       places.push_back(std::move(p));
     }
@@ -94,70 +102,105 @@ void LowRankFamily::analyse_columns(const double* x, Eigen::Index count,
       if (block.plain) continue;
       const Place& p = places_[s][b];
       for (Eigen::Index c = 0; c < count; ++c) {
-        float* out = coefficients + static_cast<std::size_t>(c) * coefficients_ + p.coefficients;
+        const float* in = single.col(c).data();
+        float* all = coefficients + static_cast<std::size_t>(c) * coefficients_;
+        float* out = all + p.coefficients;
         std::fill_n(out, block.input_rank(), 0.0F);
         multiply_layers(block.input_basis, slab.analysis.data() + p.analysis,
-                        single.col(c).data() + block.column_begin, out);
-        for (int i = 0; i < block.input_rank(); ++i)
-          out[i] *= slab.input_scales[p.input_scales + i];
+                        in + block.column_begin, out);
+        scale(slab.input_scales.data() + p.input_scales, block.input_rank(), out);
+        if (!is_mirrored(block)) continue;
+        out = all + p.mirrored_coefficients;
+        std::fill_n(out, block.output_rank(), 0.0F);
+        multiply_layers_transposed(block.output_basis, slab.synthesis.data() + p.output_basis,
+                                   in + block.row_begin, out);
+        scale(slab.output_scales.data() + p.output_scales, block.output_rank(), out);
       }
     }
   });
 }
 
-/// The outputs of one slab while its blocks are multiplied one after another.
+/// The outputs of one slab while its blocks are multiplied one after another: its rows, and of
+/// mirror images the rows below.
 class LowRankFamily::SlabProduct {
  public:
   SlabProduct(const LowRankFamily& family, std::size_t slab, std::size_t outputs)
       : family_(family),
         slab_(family.slabs_[slab]),
         places_(family.places_[slab]),
-        sums_(Eigen::MatrixXd::Zero(slab_.row_end - slab_.row_begin,
-                                    static_cast<Eigen::Index>(outputs))),
-        touched_(outputs, 0) {}
+        touched_(outputs, 0) {
+    const auto count = static_cast<Eigen::Index>(outputs);
+    sums_ = Eigen::MatrixXd::Zero(slab_.row_end - slab_.row_begin, count);
+    if (family.form_ == MatrixForm::symmetric)
+      sums_ =
+          Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(family.size_) - slab_.row_begin, count);
+  }
 
   /// Begins the products with block b.
   void begin(std::size_t b) {
     block_ = &slab_.blocks[b];
     index_ = b;
+    mirrored_ = family_.is_mirrored(*block_);
     coupled_.setZero(block_->output_rank(), sums_.cols());
+    if (mirrored_) mirrored_coupled_.setZero(block_->input_rank(), sums_.cols());
     std::fill(touched_.begin(), touched_.end(), 0);
   }
-  /// Where the caller puts the next input, in coefficients of the block.
+  bool is_mirrored() const { return mirrored_; }
+  /// Where the caller puts the next input, in coefficients of the block, and of its mirror image.
   float* input() {
     input_.resize(block_->input_rank());
     return input_.data();
   }
+  float* mirrored_input() {
+    mirrored_input_.resize(block_->output_rank());
+    return mirrored_input_.data();
+  }
   void multiply(int matrix, int output) {
-    multiply_layers(slab_.couplings[index_ * family_.count_ + matrix],
-                    slab_.synthesis.data() + places_[index_].couplings[matrix], input_.data(),
-                    coupled_.col(output).data());
+    const Layers& layers = slab_.couplings[index_ * family_.count_ + matrix];
+    const std::uint8_t* data = slab_.synthesis.data() + places_[index_].couplings[matrix];
+    multiply_layers(layers, data, input_.data(), coupled_.col(output).data());
+    if (mirrored_)
+      multiply_layers_transposed(layers, data, mirrored_input_.data(),
+                                 mirrored_coupled_.col(output).data());
     touched_[output] = 1;
   }
   void end() {
     const auto quantum = static_cast<float>(family_.quantum_);
     const Place& p = places_[index_];
+    const auto add = [&](auto sum, auto coupled, const float* scales, const auto& synthesise) {
+      coupled *= quantum;
+      if (block_->plain) {
+        sum += coupled.template cast<double>();
+        return;
+      }
+      scale(scales, static_cast<int>(coupled.size()), coupled.data());
+      synthesised_.setZero(sum.size());
+      synthesise(coupled.data(), synthesised_.data());
+      sum += synthesised_.cast<double>();
+    };
     for (Eigen::Index o = 0; o < sums_.cols(); ++o) {
       if (!touched_[o]) continue;
-      auto sum = sums_.col(o).segment(block_->row_begin - slab_.row_begin, block_->rows());
-      coupled_.col(o) *= quantum;
-      if (block_->plain) {
-        sum += coupled_.col(o).cast<double>();
-        continue;
-      }
-      const Eigen::Map<const FloatVector> scales(slab_.output_scales.data() + p.output_scales,
-                                                 block_->output_rank());
-      coupled_.col(o).array() *= scales.array();
-      synthesised_.setZero(block_->rows());
-      multiply_layers(block_->output_basis, slab_.synthesis.data() + p.output_basis,
-                      coupled_.col(o).data(), synthesised_.data());
-      sum += synthesised_.cast<double>();
+      const auto rows = [&](int begin, int count) {
+        return sums_.col(o).segment(begin - slab_.row_begin, count);
+      };
+      add(rows(block_->row_begin, block_->rows()), coupled_.col(o),
+          slab_.output_scales.data() + p.output_scales, [&](const float* x, float* y) {
+            multiply_layers(block_->output_basis, slab_.synthesis.data() + p.output_basis, x, y);
+          });
+      if (!mirrored_) continue;
+      add(rows(block_->column_begin, block_->columns()), mirrored_coupled_.col(o),
+          slab_.input_scales.data() + p.input_scales, [&](const float* x, float* y) {
+            multiply_layers_transposed(block_->input_basis, slab_.analysis.data() + p.analysis, x,
+                                       y);
+          });
     }
   }
-  void add_to(const std::vector<double*>& outputs) const {
-    for (std::size_t o = 0; o < outputs.size(); ++o)
-      Eigen::Map<Eigen::VectorXd>(outputs[o] + slab_.row_begin, sums_.rows()) +=
-          sums_.col(static_cast<Eigen::Index>(o));
+  /// Adds what there is for rows [begin, end) to an output.
+  void add_to(double* output, Eigen::Index index, int begin, int end) const {
+    const int last = std::min(end, slab_.row_begin + static_cast<int>(sums_.rows()));
+    if (begin < last)
+      Eigen::Map<Eigen::VectorXd>(output + begin, last - begin) +=
+          sums_.col(index).segment(begin - slab_.row_begin, last - begin);
   }
 
  private:
@@ -168,35 +211,53 @@ class LowRankFamily::SlabProduct {
   std::vector<char> touched_;
   const LowRankBlock* block_ = nullptr;
   std::size_t index_ = 0;
-  FloatMatrix coupled_;
-  FloatVector input_, synthesised_;
+  bool mirrored_ = false;
+  FloatMatrix coupled_, mirrored_coupled_;
+  FloatVector input_, mirrored_input_, synthesised_;
 };
+
+template <class F>
+void LowRankFamily::multiply_blocks(const std::vector<double*>& outputs, const F& add) const {
+  std::vector<std::optional<SlabProduct>> products(slabs_.size());
+  parallel_for(slabs_.size(), [&](std::size_t s) {
+    SlabProduct& product = products[s].emplace(*this, s, outputs.size());
+    for (std::size_t b = 0; b < slabs_[s].blocks.size(); ++b) {
+      product.begin(b);
+      add(product, s, b);
+      product.end();
+    }
+  });
+  // in the order of slabs, of which the first ones have mirror images in the rows of later ones
+  parallel_for(slabs_.size(), [&](std::size_t s) {
+    for (std::size_t from = form_ == MatrixForm::symmetric ? 0 : s; from <= s; ++from)
+      for (std::size_t o = 0; o < outputs.size(); ++o)
+        products[from]->add_to(outputs[o], static_cast<Eigen::Index>(o), slabs_[s].row_begin,
+                               slabs_[s].row_end);
+  });
+}
 
 void LowRankFamily::multiply_add(const std::vector<FamilyTerm>& unsorted,
                                  const std::vector<double*>& outputs) const {
   const std::vector<FamilyTerm> terms = sorted_by_matrix(unsorted);
   if (terms.empty()) return;
-  parallel_for(slabs_.size(), [&](std::size_t s) {
+  multiply_blocks(outputs, [&](SlabProduct& product, std::size_t s, std::size_t b) {
     const LowRankSlab& slab = slabs_[s];
-    SlabProduct product(*this, s, outputs.size());
-    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
-      const LowRankBlock& block = slab.blocks[b];
-      product.begin(b);
-      for (const FamilyTerm& t : terms) {
-        if (slab.couplings[b * count_ + t.matrix].stored_rows() == 0) continue;
-        const auto factor = static_cast<float>(t.factor);
-        float* input = product.input();
-        if (block.plain)
-          for (int i = 0; i < block.columns(); ++i)
-            input[i] = factor * static_cast<float>(t.input[block.column_begin + i]);
-        else
-          for (int i = 0; i < block.input_rank(); ++i)
-            input[i] = factor * t.coefficients[places_[s][b].coefficients + i];
-        product.multiply(t.matrix, t.output);
-      }
-      product.end();
+    const LowRankBlock& block = slab.blocks[b];
+    const Place& p = places_[s][b];
+    for (const FamilyTerm& t : terms) {
+      if (slab.couplings[b * count_ + t.matrix].stored_rows() == 0) continue;
+      const auto factor = static_cast<float>(t.factor);
+      const auto set = [&](float* to, int count, const double* x, const float* coefficients) {
+        for (int i = 0; i < count; ++i)
+          to[i] = factor * (block.plain ? static_cast<float>(x[i]) : coefficients[i]);
+      };
+      set(product.input(), block.input_rank(), t.input + block.column_begin,
+          t.coefficients + p.coefficients);
+      if (product.is_mirrored())
+        set(product.mirrored_input(), block.output_rank(), t.input + block.row_begin,
+            t.coefficients + p.mirrored_coefficients);
+      product.multiply(t.matrix, t.output);
     }
-    product.add_to(outputs);
   });
 }
 
@@ -204,39 +265,48 @@ void LowRankFamily::multiply_add(const std::vector<SparseTerm>& unsorted,
                                  const std::vector<double*>& outputs) const {
   const std::vector<SparseTerm> terms = sorted_by_matrix(unsorted);
   if (terms.empty()) return;
-  parallel_for(slabs_.size(), [&](std::size_t s) {
+  multiply_blocks(outputs, [&](SlabProduct& product, std::size_t s, std::size_t b) {
     const LowRankSlab& slab = slabs_[s];
-    SlabProduct product(*this, s, outputs.size());
-    FloatVector column;
-    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
-      const LowRankBlock& block = slab.blocks[b];
-      const Place& p = places_[s][b];
-      product.begin(b);
-      for (const SparseTerm& t : terms) {
+    const LowRankBlock& block = slab.blocks[b];
+    const Place& p = places_[s][b];
+    for (const SparseTerm& t : terms) {
+      if (slab.couplings[b * count_ + t.matrix].stored_rows() == 0) continue;
+      // coefficients of the entries of [begin, end); load: of a unit entry
+      const auto set = [&](float* to, int rank, int begin, int end, const auto& load,
+                           const float* scales) {
+        std::fill_n(to, rank, 0.0F);
         const std::vector<int>& columns = *t.columns;
-        const auto first = std::lower_bound(columns.begin(), columns.end(), block.column_begin);
-        const auto last = std::lower_bound(first, columns.end(), block.column_end);
-        if (first == last || slab.couplings[b * count_ + t.matrix].stored_rows() == 0) continue;
-        float* input = product.input();
-        std::fill_n(input, block.input_rank(), 0.0F);
+        const auto first = std::lower_bound(columns.begin(), columns.end(), begin);
+        const auto last = std::lower_bound(first, columns.end(), end);
+        FloatVector unit(rank);
         for (auto c = first; c != last; ++c) {
           const auto value = static_cast<float>(t.factor * t.values[c - columns.begin()]);
-          const int j = *c - block.column_begin;
           if (block.plain) {
-            input[j] += value;
-          } else if (j < block.input_basis.stored_columns()) {
-            column.resize(block.input_rank());
-            load_layers_column(block.input_basis, slab.analysis.data() + p.analysis, j,
-                               column.data());
-            for (int i = 0; i < block.input_rank(); ++i)
-              input[i] += value * column[i] * slab.input_scales[p.input_scales + i];
+            to[*c - begin] += value;
+            continue;
           }
+          unit.setZero();
+          load(*c - begin, unit.data());
+          for (int i = 0; i < rank; ++i) to[i] += value * unit[i] * scales[i];
         }
-        product.multiply(t.matrix, t.output);
-      }
-      product.end();
+        return first != last;
+      };
+      const auto of_column = [&](int j, float* out) {
+        if (j < block.input_basis.stored_columns())
+          load_layers_column(block.input_basis, slab.analysis.data() + p.analysis, j, out);
+      };
+      const auto of_row = [&](int i, float* out) {
+        if (i < block.output_basis.stored_rows())
+          load_layers_row(block.output_basis, slab.synthesis.data() + p.output_basis, i, out);
+      };
+      bool met = set(product.input(), block.input_rank(), block.column_begin, block.column_end,
+                     of_column, slab.input_scales.data() + p.input_scales);
+      if (product.is_mirrored() &&
+          set(product.mirrored_input(), block.output_rank(), block.row_begin, block.row_end, of_row,
+              slab.output_scales.data() + p.output_scales))
+        met = true;
+      if (met) product.multiply(t.matrix, t.output);
     }
-    product.add_to(outputs);
   });
 }
 
@@ -270,8 +340,19 @@ FloatMatrix LowRankFamily::input_basis(std::size_t slab, std::size_t block) cons
 
 void LowRankFamily::multiply_transposed_add(const std::vector<FamilyTerm>& unsorted,
                                             const std::vector<double*>& outputs) const {
-  const std::vector<FamilyTerm> terms = sorted_by_matrix(unsorted);
+  std::vector<FamilyTerm> terms = sorted_by_matrix(unsorted);
   const auto size = static_cast<Eigen::Index>(size_);
+  if (form_ == MatrixForm::symmetric) {
+    FloatMatrix coefficients(static_cast<Eigen::Index>(coefficients_),
+                             static_cast<Eigen::Index>(terms.size()));
+    for (std::size_t t = 0; t < terms.size(); ++t) {
+      float* own = coefficients.col(static_cast<Eigen::Index>(t)).data();
+      analyse_columns(terms[t].input, 1, own);
+      terms[t].coefficients = own;
+    }
+    multiply_add(terms, outputs);
+    return;
+  }
   std::vector<FloatMatrix> sums(slabs_.size());
   parallel_for(slabs_.size(), [&](std::size_t s) {
     const LowRankSlab& slab = slabs_[s];
@@ -305,6 +386,7 @@ void LowRankFamily::multiply_transposed_add(const std::vector<FamilyTerm>& unsor
 }
 
 FloatMatrix LowRankFamily::multiply_left(const FloatMatrix& x, int matrix) const {
+  require(form_ == MatrixForm::general, "left products are those of a general family");
   constexpr Eigen::Index kTileRows = 128;  // a decoded block serves all of them
   FloatMatrix out(x.rows(), x.cols());
   parallel_for((x.rows() + kTileRows - 1) / kTileRows, [&](std::size_t tile) {
@@ -362,7 +444,7 @@ std::unique_ptr<MatrixFamily> LowRankFamily::combine(
     }
   });
   return std::make_unique<LowRankFamily>(size_, static_cast<int>(weights.size()), quantum_,
-                                         std::move(slabs));
+                                         std::move(slabs), form_);
 }
 
 Eigen::MatrixXd LowRankFamily::block(int matrix, const std::vector<int>& rows,
@@ -375,23 +457,31 @@ Eigen::MatrixXd LowRankFamily::block(int matrix, const std::vector<int>& rows,
     for (int i : positions) result.push_back(indices[i] - begin);
     return result;
   };
-  parallel_for(slabs_.size(), [&](std::size_t s) {  // slabs have different rows
+  parallel_for(slabs_.size(), [&](std::size_t s) {  // slabs have different entries
     const LowRankSlab& slab = slabs_[s];
-    if (positions_in(rows, slab.row_begin, slab.row_end).empty()) return;
     for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
       const LowRankBlock& k = slab.blocks[b];
-      const std::vector<int> r = positions_in(rows, k.row_begin, k.row_end);
-      const std::vector<int> c = positions_in(columns, k.column_begin, k.column_end);
-      if (r.empty() || c.empty()) continue;
-      const std::vector<int> in_rows = relative(rows, r, k.row_begin);
-      const std::vector<int> in_columns = relative(columns, c, k.column_begin);
-      FloatMatrix entries = coupling(s, b, matrix);
-      if (k.plain)
-        entries = FloatMatrix(entries(in_rows, in_columns));
-      else
-        entries = FloatMatrix(output_basis(s, b)(in_rows, Eigen::all) * entries *
-                              input_basis(s, b)(Eigen::all, in_columns));
-      out(r, c) = entries.cast<double>();
+      const auto take = [&](const std::vector<int>& of_rows, const std::vector<int>& of_columns) {
+        const std::vector<int> r = positions_in(of_rows, k.row_begin, k.row_end);
+        const std::vector<int> c = positions_in(of_columns, k.column_begin, k.column_end);
+        FloatMatrix entries;
+        if (!r.empty() && !c.empty()) {
+          const std::vector<int> in_rows = relative(of_rows, r, k.row_begin);
+          const std::vector<int> in_columns = relative(of_columns, c, k.column_begin);
+          entries = coupling(s, b, matrix);
+          if (k.plain)
+            entries = FloatMatrix(entries(in_rows, in_columns));
+          else
+            entries = FloatMatrix(output_basis(s, b)(in_rows, Eigen::all) * entries *
+                                  input_basis(s, b)(Eigen::all, in_columns));
+        }
+        return std::make_tuple(r, c, entries);
+      };
+      if (const auto [r, c, entries] = take(rows, columns); entries.size() > 0)
+        out(r, c) = entries.cast<double>();
+      if (!is_mirrored(k)) continue;
+      if (const auto [r, c, entries] = take(columns, rows); entries.size() > 0)
+        out(c, r) = entries.transpose().cast<double>();
     }
   });
   return out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "algebra/matrix_form.hpp"
 #include "base/aligned.hpp"
 #include "compress/layered_matrix.hpp"
 #include "compress/matrix_family.hpp"
@@ -36,18 +37,21 @@ struct LowRankSlab {
 };
 
 /// Codec "lowrank": blocks with bases that are common to all matrices of the family, and numbers of
-/// 8, 16 or 32 bits, as many as what they carry needs.
+/// 8, 16 or 32 bits, as many as what they carry needs. A symmetric family stores the blocks on the
+/// diagonal and those to the right of them, which stand for their mirror images, too.
 class LowRankFamily : public MatrixFamily {
  public:
   /// `quantum`: unit of the entries of couplings, the same for the whole family.
-  LowRankFamily(std::size_t size, int count, double quantum, std::vector<LowRankSlab> slabs);
+  LowRankFamily(std::size_t size, int count, double quantum, std::vector<LowRankSlab> slabs,
+                MatrixForm form);
 
   std::size_t rows() const override { return size_; }
   std::size_t columns() const override { return size_; }
   int count() const override { return count_; }
   std::size_t bytes() const override;
 
-  /// Coefficients in the blocks' input bases, block by block.
+  /// Coefficients in the blocks' input bases, of mirror images in their output bases, block by
+  /// block.
   std::size_t coefficients() const override { return coefficients_; }
   void analyse(const double* x, float* coefficients) const override {
     analyse_columns(x, 1, coefficients);
@@ -66,20 +70,28 @@ class LowRankFamily : public MatrixFamily {
   Eigen::MatrixXd block(int matrix, const std::vector<int>& rows,
                         const std::vector<int>& columns) const override;
 
-  /// X A_matrix for many rows at once, in single precision: p x size.
+  /// X A_matrix for many rows at once, in single precision: p x size. Of a general family.
   FloatMatrix multiply_left(const FloatMatrix& x, int matrix) const;
 
   double quantum() const { return quantum_; }
+  MatrixForm form() const { return form_; }
   const std::vector<LowRankSlab>& slabs() const { return slabs_; }
 
  private:
   /// Where the numbers of a block are in its slab, and its coefficients in an analysed vector.
   struct Place {
     std::size_t analysis = 0, input_scales = 0, output_scales = 0, output_basis = 0;
-    std::size_t coefficients = 0;
+    std::size_t coefficients = 0, mirrored_coefficients = 0;
     std::vector<std::size_t> couplings;  ///< by matrix
   };
   class SlabProduct;
+  bool is_mirrored(const LowRankBlock& block) const {
+    return form_ == MatrixForm::symmetric && block.column_begin >= block.row_end;
+  }
+  /// Calls add(product, slab, block) for all blocks, between begin() and end() of each, and adds
+  /// the products to the outputs.
+  template <class F>
+  void multiply_blocks(const std::vector<double*>& outputs, const F& add) const;
   void analyse_columns(const double* x, Eigen::Index count, float* coefficients) const;
 
   /// Parts of a block as matrices: X = Q C P with all scales in C, or X = C if it is plain.
@@ -90,6 +102,7 @@ class LowRankFamily : public MatrixFamily {
   std::size_t size_;
   int count_;
   double quantum_;
+  MatrixForm form_;
   std::vector<LowRankSlab> slabs_;
   std::vector<std::vector<Place>> places_;  ///< [slab][block]
   std::size_t coefficients_ = 0;

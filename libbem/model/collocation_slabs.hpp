@@ -15,6 +15,7 @@ class CollocationSlabs : public SlabAssembler<T> {
   typename SlabAssembler<T>::Norms estimate_norms() override;
   double row_sum_residual() const override { return residual_; }
   bool is_inertial() const override { return false; }
+  MatrixForm form() const override { return MatrixForm::general; }
 
  private:
   template <class S>

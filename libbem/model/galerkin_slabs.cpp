@@ -8,9 +8,11 @@
 
 namespace bem {
 template <class T>
-GalerkinSlabs<T>::GalerkinSlabs(BodyModel& model, AssemblyPrecision precision)
+GalerkinSlabs<T>::GalerkinSlabs(BodyModel& model, AssemblyPrecision precision, MatrixForm form)
     : SlabAssembler<T>(model),
       precision_(precision),
+      form_(form),
+      known_(model.nodes(), 0),
       assembler_(model.geometry.nodes, model.geometry.extent, model.discretisation),
       combination_(model.discretisation, assembler_.layout()) {}
 
@@ -42,7 +44,7 @@ template <class S>
 void GalerkinSlabs<T>::load_rows(int first, int last, GalerkinRows<S>& rows) const {
   if (first >= rows.first && last <= rows.last) return;
   const int n = static_cast<int>(this->model_.nodes());
-  assembler_.assemble(first, std::min(n, std::max(last, first + rows_in_memory())), rows);
+  assembler_.assemble(first, std::min(n, std::max(last, first + rows_in_memory())), form_, rows);
 }
 
 template <class T>
@@ -52,51 +54,82 @@ void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
   with_rows(first, last, [&](const auto& rows) {
     parallel_for(last - first, [&](std::size_t row) {
       const int node = first + static_cast<int>(row);
-      distribute_row(rows, node - rows.first, slab);
-      distribute_body_forces(rows, node - rows.first);
+      distribute_h(rows, node, slab);
+      distribute_g(rows, node, slab);
     });
+    if (known_[first] != 0) return;
+    const int end = form_ == MatrixForm::symmetric ? rows.nodes : last;
+    parallel_for(end - first, [&](std::size_t i) {
+      add_body_forces(rows, first, last, first + static_cast<int>(i));
+    });
+    std::fill(known_.begin() + first, known_.begin() + last, 1);
   });
+}
+
+/// The row of a node; of symmetric matrices from the diagonal on, with its mirror image in the
+/// slab.
+template <class T>
+template <class S>
+void GalerkinSlabs<T>::distribute_h(const GalerkinRows<S>& rows, int node,
+                                    MatrixSlab<T>& slab) const {
+  const bool symmetric = form_ == MatrixForm::symmetric;
+  const int row = node - rows.first, initial = this->layout_.initial, count = this->layout_.count();
+  std::vector<double> lanes(count);
+  for (int j = symmetric ? node : 0; j < rows.nodes; ++j)
+    for (int e = 0; e < 9; ++e) {
+      const Eigen::Index to = 3 * (node - slab.first) + e / 3, column = 3 * j + e % 3;
+      const bool mirrored = symmetric && j > node && j < slab.last;
+      const Eigen::Index to_mirrored = column - 3 * slab.first, at_mirrored = 3 * node + e / 3;
+      const auto set = [&](auto& matrix, auto value) {
+        matrix(to, column) = value;
+        if (mirrored) matrix(to_mirrored, at_mirrored) = value;
+      };
+      const double static_part = rows.static_h(3 * row + e / 3, column);
+      const S* z = rows.inertia_block(row, j) + e * rows.padded_lanes;
+      combination_.initial_h(static_part, z, lanes.data());
+      for (int lane = 0; lane < initial; ++lane) set(slab.initial_h[lane], lanes[lane]);
+      for (int lane = initial; lane < count; ++lane)
+        set(slab.h[lane - initial], static_cast<T>(z[lane]));
+      if (is_inertial()) set(slab.stiffness, static_cast<T>(static_part));
+    }
 }
 
 template <class T>
 template <class S>
-void GalerkinSlabs<T>::distribute_row(const GalerkinRows<S>& rows, int row, MatrixSlab<T>& slab) {
-  const int n = static_cast<int>(this->model_.nodes()), count = this->layout_.count();
-  const int initial = this->layout_.initial;
+void GalerkinSlabs<T>::distribute_g(const GalerkinRows<S>& rows, int node,
+                                    MatrixSlab<T>& slab) const {
+  const int row = node - rows.first, initial = this->layout_.initial, count = this->layout_.count();
   std::vector<double> lanes(count);
-  for (int j = 0; j < n; ++j)
+  for (int j = 0; j < rows.nodes; ++j) {
+    if (!this->is_loaded(j)) continue;
     for (int e = 0; e < 9; ++e) {
-      const Eigen::Index from = 3 * row + e / 3, to = 3 * (rows.first + row - slab.first) + e / 3,
-                         column = 3 * j + e % 3;
-      const S* z = rows.inertia_block(row, j) + e * rows.padded_lanes;
-      combination_.initial_h(rows.static_h(from, column), z, lanes.data());
-      for (int lane = 0; lane < initial; ++lane) slab.initial_h[lane](to, column) = lanes[lane];
-      for (int lane = initial; lane < count; ++lane)
-        slab.h[lane - initial](to, column) = static_cast<T>(z[lane]);
-      if (is_inertial()) slab.stiffness(to, column) = static_cast<T>(rows.static_h(from, column));
-      if (!this->is_loaded(j)) continue;
-      combination_.g(rows.static_g(from, column),
+      const Eigen::Index to = 3 * (node - slab.first) + e / 3, column = 3 * j + e % 3;
+      combination_.g(rows.static_g(3 * row + e / 3, column),
                      rows.adjoint_block(row, j) + e * rows.padded_lanes, lanes.data());
       for (int lane = 0; lane < initial; ++lane) slab.initial_g[lane](to, column) = lanes[lane];
       for (int lane = initial; lane < count; ++lane)
         slab.g[lane - initial](to, column) = static_cast<T>(lanes[lane]);
     }
+  }
 }
 
-/// [D Q] = -Z R of the frame's accelerations, and Z u + J p/c2^2 of uniform strain.
+/// [D Q] = -Z R of the frame's accelerations, and Z u + J p/c2^2 of uniform strain: what rows of
+/// the nodes [first, last) and their mirror images add to the rows of a node.
 template <class T>
 template <class S>
-void GalerkinSlabs<T>::distribute_body_forces(const GalerkinRows<S>& rows, int row) {
-  const TriangleMesh& mesh = assembler_.mesh();
+void GalerkinSlabs<T>::add_body_forces(const GalerkinRows<S>& rows, int first, int last, int node) {
+  const bool symmetric = form_ == MatrixForm::symmetric;
   const int stride = rows.padded_lanes, count = this->layout_.count();
   std::vector<double> rigid(18 * stride, 0.0), strain(18 * stride, 0.0), lanes(stride);
-  for (int j = 0; j < rows.nodes; ++j) {
+  // block: of Z, times the motions of the node `at`, by rows or, mirrored, by columns
+  const auto add = [&](const S* block, int at, bool mirrored) {
+    const Vec3& x = assembler_.mesh().vertices[at];
     Eigen::Matrix<double, 3, 6> turn;
-    turn << Mat3::Identity(), -cross_matrix(mesh.vertices[j]);
-    const Eigen::Matrix<double, 3, 6> linear = symmetric_products(mesh.vertices[j]);
+    turn << Mat3::Identity(), -cross_matrix(x);
+    const Eigen::Matrix<double, 3, 6> linear = symmetric_products(x);
     for (int e = 0; e < 9; ++e) {
-      const S* z = rows.inertia_block(row, j) + e * stride;
-      const int i = e / 3, l = e % 3;
+      const S* z = block + e * stride;
+      const int i = mirrored ? e % 3 : e / 3, l = mirrored ? e / 3 : e % 3;
       for (int c = 0; c < 6; ++c) {
         const double a = -turn(l, c), b = linear(l, c);
         double* r = &rigid[(6 * i + c) * stride];
@@ -107,18 +140,27 @@ void GalerkinSlabs<T>::distribute_body_forces(const GalerkinRows<S>& rows, int r
           for (int lane = 0; lane < count; ++lane) s[lane] += b * z[lane];
       }
     }
+  };
+  const bool own = node < last;
+  if (symmetric)
+    for (int i = first; i < std::min(node, last); ++i)
+      add(rows.inertia_block(i - rows.first, node), i, true);
+  if (own)
+    for (int j = symmetric ? node : 0; j < rows.nodes; ++j)
+      add(rows.inertia_block(node - rows.first, j), j, false);
+  if (own) {
+    const Discretisation& d = this->model_.discretisation;
+    const double scale = 1 / (d.material.shear_speed() * d.material.shear_speed());
+    const std::size_t row = node - rows.first;
+    for (int entry = 0; entry < 18; ++entry) {
+      combination_.damp(&rows.strain[(row * 18 + entry) * stride], lanes.data());
+      for (int lane = 0; lane < count; ++lane) strain[entry * stride + lane] += scale * lanes[lane];
+    }
   }
-  const Discretisation& d = this->model_.discretisation;
-  const double scale = 1 / (d.material.shear_speed() * d.material.shear_speed());
-  for (int entry = 0; entry < 18; ++entry) {
-    combination_.damp(&rows.strain[(std::size_t(row) * 18 + entry) * stride], lanes.data());
-    for (int lane = 0; lane < count; ++lane) strain[entry * stride + lane] += scale * lanes[lane];
-  }
-  const int node = rows.first + row;
-  this->distribute_columns(node, rigid.data(), 18, stride, 0, this->model_.body_force,
-                           this->model_.initial_body_force);
-  this->distribute_columns(node, strain.data(), 18, stride, 0, this->model_.centrifugal,
-                           this->model_.initial_centrifugal);
+  this->add_columns(node, rigid.data(), stride, this->model_.body_force,
+                    this->model_.initial_body_force);
+  this->add_columns(node, strain.data(), stride, this->model_.centrifugal,
+                    this->model_.initial_centrifugal);
 }
 
 template <class T>
@@ -128,14 +170,19 @@ void GalerkinSlabs<T>::add_squares(const GalerkinRows<S>& rows, int row,
   const int count = this->layout_.count(), initial = this->layout_.initial;
   std::vector<double> lanes(count);
   const auto square = [](double a) { return a * a; };
+  const bool symmetric = rows.form == MatrixForm::symmetric;
+  const int node = rows.first + row;
   for (int j = 0; j < rows.nodes; ++j)
     for (int e = 0; e < 9; ++e) {
       const Eigen::Index from = 3 * row + e / 3, column = 3 * j + e % 3;
-      const S* z = rows.inertia_block(row, j) + e * rows.padded_lanes;
-      sum.stiffness += square(rows.static_h(from, column));
-      combination_.initial_h(rows.static_h(from, column), z, lanes.data());
-      for (int lane = 0; lane < initial; ++lane) sum.initial_h += square(lanes[lane]);
-      for (int lane = initial; lane < count; ++lane) sum.h += square(z[lane]);
+      if (!symmetric || j >= node) {
+        const double times = symmetric && j > node && j < rows.last ? 2 : 1;  // mirror images
+        const S* z = rows.inertia_block(row, j) + e * rows.padded_lanes;
+        sum.stiffness += times * square(rows.static_h(from, column));
+        combination_.initial_h(rows.static_h(from, column), z, lanes.data());
+        for (int lane = 0; lane < initial; ++lane) sum.initial_h += times * square(lanes[lane]);
+        for (int lane = initial; lane < count; ++lane) sum.h += times * square(z[lane]);
+      }
       if (!this->is_loaded(j)) continue;
       combination_.g(rows.static_g(from, column),
                      rows.adjoint_block(row, j) + e * rows.padded_lanes, lanes.data());
@@ -144,23 +191,25 @@ void GalerkinSlabs<T>::add_squares(const GalerkinRows<S>& rows, int row,
     }
 }
 
-/// From all rows if they have room, which are assembled anyway, else from some single ones.
+/// From the rows that are in memory if these are many, else from some single ones.
 template <class T>
 typename SlabAssembler<T>::Norms GalerkinSlabs<T>::estimate_norms() {
-  constexpr int kSamples = 6;
+  constexpr int kSamples = 6, kMany = 4;  // a part 1/kMany
   const int n = static_cast<int>(this->model_.nodes());
   typename SlabAssembler<T>::Norms sum;
-  if (rows_in_memory() >= n) {
-    with_rows(0, n, [&](const auto& rows) {
-      for (int i = 0; i < n; ++i) add_squares(rows, i, sum);
+  if (kMany * rows_in_memory() >= n) {
+    with_rows(0, 1, [&](const auto& rows) {
+      const int count = rows.last - rows.first;
+      for (int i = 0; i < count; ++i) add_squares(rows, i, sum);
+      sum = sum.root(static_cast<double>(n) / count);
     });
-    return sum.root(1);
+    return sum;
   }
   const int samples = std::min(n, kSamples);
   for (int i = 0; i < samples; ++i) {
     const int node = static_cast<int>((2L * i + 1) * n / (2 * samples));
     GalerkinRows<float> rows;
-    assembler_.assemble(node, node + 1, rows);
+    assembler_.assemble(node, node + 1, MatrixForm::general, rows);
     add_squares(rows, 0, sum);
   }
   return sum.root(static_cast<double>(n) / samples);

@@ -10,13 +10,14 @@ namespace bem {
 template <class T>
 class GalerkinSlabs : public SlabAssembler<T> {
  public:
-  GalerkinSlabs(BodyModel& model, AssemblyPrecision precision);
+  GalerkinSlabs(BodyModel& model, AssemblyPrecision precision, MatrixForm form);
 
   void assemble(int first, int last, MatrixSlab<T>& slab) override;
   typename SlabAssembler<T>::Norms estimate_norms() override;
   double row_sum_residual() const override { return 0; }  // rigid translation is exact
   /// Without a history nothing is multiplied but by lag 0.
   bool is_inertial() const override { return this->model_.has_history(); }
+  MatrixForm form() const override { return form_; }
 
  private:
   template <class F>
@@ -28,11 +29,15 @@ class GalerkinSlabs : public SlabAssembler<T> {
                    typename SlabAssembler<T>::Norms& sum) const;
   int rows_in_memory() const;
   template <class S>
-  void distribute_row(const GalerkinRows<S>& rows, int row, MatrixSlab<T>& slab);
+  void distribute_h(const GalerkinRows<S>& rows, int node, MatrixSlab<T>& slab) const;
   template <class S>
-  void distribute_body_forces(const GalerkinRows<S>& rows, int row);
+  void distribute_g(const GalerkinRows<S>& rows, int node, MatrixSlab<T>& slab) const;
+  template <class S>
+  void add_body_forces(const GalerkinRows<S>& rows, int first, int last, int node);
 
   AssemblyPrecision precision_;
+  MatrixForm form_;
+  std::vector<char> known_;  ///< by node: whether its rows are in the body forces
   GalerkinAssembler assembler_;
   GalerkinCombination combination_;
   GalerkinRows<float> single_;

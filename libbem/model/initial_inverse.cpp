@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include <Eigen/SVD>
 
@@ -200,24 +201,25 @@ double inverse_scale(const DenseMatrix<T>& inverse) {
 }
 
 template <class T>
-void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, const LowRankFamily* g,
-                       double tolerance, const Progress& progress) {
+void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, MatrixForm form,
+                       const LowRankFamily* g, double tolerance, const Progress& progress) {
   const DenseMatrix<T> inverse = invert(model, factorise(std::move(h), progress), progress);
   const std::vector<Slab> partition = make_partition(model.geometry.nodes.vertices, {});
   const auto rows_of = [&](const Slab& slab) {
     return parts(inverse, 3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin));
   };
-  const Slab& middle = partition[partition.size() / 2];
-  const std::vector<FloatMatrix> sample = rows_of(middle);
-  const auto builder = [&](const std::vector<FloatMatrix>& rows, double norm) {
-    return LowRankBuilder(partition, static_cast<int>(rows.size()),
-                          LowRankBuilder::choose_quantum(middle, views(rows), tolerance * norm));
+  const auto builder = [&](MatrixForm of, double norm, const auto& matrix_rows) {
+    std::vector<Slab> slabs = with_form(partition, of);
+    const Slab& sample = typical_slab(slabs, of);
+    const std::vector<FloatMatrix> rows = matrix_rows(sample);
+    const double quantum = LowRankBuilder::choose_quantum(sample, views(rows), tolerance * norm);
+    return LowRankBuilder(std::move(slabs), static_cast<int>(rows.size()), quantum, of);
   };
-  LowRankBuilder inverse_builder = builder(sample, inverse_scale(inverse));
-  std::unique_ptr<LowRankBuilder> response_builder;
+  LowRankBuilder inverse_builder = builder(form, inverse_scale(inverse), rows_of);
+  std::optional<LowRankBuilder> response_builder;
   if (g)
-    response_builder = std::make_unique<LowRankBuilder>(
-        builder(times(sample, *g), response_scale(model, inverse, *g)));
+    response_builder = builder(MatrixForm::general, response_scale(model, inverse, *g),
+                               [&](const Slab& slab) { return times(rows_of(slab), *g); });
   for (const Slab& slab : partition) {
     if (progress)
       progress("compressing the inverse", 3 * slab.row_begin / static_cast<double>(inverse.rows()));
@@ -238,17 +240,24 @@ void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, const LowRankFamily
 void InitialMatrix::set_rows(Eigen::Index first, const Eigen::MatrixXd& real_part,
                              const Eigen::MatrixXd* imaginary_part) {
   constexpr Eigen::Index kTile = 64;
-  const Eigen::Index columns = real_part.cols();
+  const bool symmetric = form == MatrixForm::symmetric;
+  const Eigen::Index from = symmetric ? first : 0, columns = real_part.cols() - from,
+                     rows = real_part.rows();
   parallel_for((columns + kTile - 1) / kTile, [&](std::size_t tile) {
-    const Eigen::Index begin = static_cast<Eigen::Index>(tile) * kTile;
-    const Eigen::Index count = std::min(kTile, columns - begin);
+    const Eigen::Index begin = from + static_cast<Eigen::Index>(tile) * kTile;
+    const Eigen::Index count = std::min(kTile, real_part.cols() - begin);
+    const auto set = [&](const auto& part, auto to, auto mirrored) {
+      to = part.middleCols(begin, count);
+      if (symmetric) mirrored = part.middleCols(begin, count).transpose();
+    };
     if (!paired) {
-      real.block(first, begin, real_part.rows(), count) = real_part.middleCols(begin, count);
+      set(real_part, real.block(first, begin, rows, count), real.block(begin, first, count, rows));
       return;
     }
-    auto to = complex.block(first, begin, real_part.rows(), count);
-    to.real() = real_part.middleCols(begin, count);
-    to.imag() = imaginary_part->middleCols(begin, count);
+    auto to = complex.block(first, begin, rows, count);
+    auto mirrored = complex.block(begin, first, count, rows);
+    set(real_part, to.real(), mirrored.real());
+    set(*imaginary_part, to.imag(), mirrored.imag());
   });
 }
 
@@ -263,9 +272,9 @@ void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const C
 void invert_compressed(BodyModel& model, InitialMatrix&& h, const LowRankFamily* g,
                        double tolerance, const Progress& progress) {
   if (h.paired)
-    invert_compressed(model, std::move(h.complex), g, tolerance, progress);
+    invert_compressed(model, std::move(h.complex), h.form, g, tolerance, progress);
   else
-    invert_compressed(model, std::move(h.real), g, tolerance, progress);
+    invert_compressed(model, std::move(h.real), h.form, g, tolerance, progress);
 }
 
 }  // namespace bem

@@ -12,16 +12,18 @@ namespace bem {
 /// for a component that stands for a pair.
 struct InitialMatrix {
   bool paired = false;
+  MatrixForm form;
   DenseMatrix<double> real;
   DenseMatrix<Complex> complex;
 
-  InitialMatrix(Eigen::Index n, bool is_paired) : paired(is_paired) {
+  InitialMatrix(Eigen::Index n, bool is_paired, MatrixForm f) : paired(is_paired), form(f) {
     if (paired)
       complex.resize(n, n);
     else
       real.resize(n, n);
   }
-  /// Rows from their real and imaginary parts.
+  /// Rows from their real and imaginary parts. Of a symmetric matrix the columns from `first` on
+  /// are taken, and set their mirror images, too.
   void set_rows(Eigen::Index first, const Eigen::MatrixXd& real_part,
                 const Eigen::MatrixXd* imaginary_part);
 };

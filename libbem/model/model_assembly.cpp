@@ -15,34 +15,53 @@ namespace {
 /// |H_0 W + s^2 Q_0| relative to |H_0|: rotation is not imposed, so this measures the quadrature.
 class RotationResidual {
  public:
-  explicit RotationResidual(const BodyModel& model) : model_(model) {
+  RotationResidual(const BodyModel& model, MatrixForm form) : model_(model), form_(form) {
     const auto n = static_cast<Eigen::Index>(model.nodes());
     turns_.resize(3 * n, 3);
     for (Eigen::Index i = 0; i < n; ++i)
       turns_.middleRows<3>(3 * i) = cross_matrix(model.geometry.nodes.vertices[i]).transpose();
+    moved_ = Eigen::MatrixXcd::Zero(3 * n, 3);
   }
 
-  /// Takes the rows of H_0 of a slab, whose body forces are known.
+  /// Takes the rows of H_0 of a slab, each once.
   template <class T>
   void add(const MatrixSlab<T>& slab) {
+    const bool symmetric = form_ == MatrixForm::symmetric;
+    const InitialComponent& c = model_.discretisation.scheme.initial_components()[0];
+    const Eigen::Index first = 3 * slab.first, rows = 3 * (slab.last - slab.first);
+    const Eigen::Index columns = symmetric ? turns_.rows() - first : turns_.rows();
+    const Eigen::Index beyond = symmetric ? columns - rows : 0;
+    const auto apply = [&](const Eigen::MatrixXd& part, auto moved) {
+      moved.middleRows(first, rows) += part.rightCols(columns) * turns_.bottomRows(columns);
+      moved.bottomRows(beyond) +=
+          part.rightCols(beyond).transpose() * turns_.middleRows(first, rows);
+    };
+    apply(slab.initial_h[0], moved_.real());
+    if (c.paired) apply(slab.initial_h[1], moved_.imag());
+    size_ = std::max(size_, slab.initial_h[0].rightCols(columns).cwiseAbs().maxCoeff());
+    known_.emplace_back(first, rows);
+  }
+  /// Of the rows that have been added; the body forces must be known.
+  double value() const {
     const InitialComponent& c = model_.discretisation.scheme.initial_components()[0];
     const Complex s = c.eigenvalue / model_.discretisation.dt;
-    Eigen::MatrixXcd moved = (slab.initial_h[0] * turns_).template cast<Complex>();
-    if (c.paired) moved.imag() = slab.initial_h[1] * turns_;
-    moved += s * s *
-             model_.initial_body_force[0].block(3 * slab.first, 3, 3 * (slab.last - slab.first), 3);
-    largest_ = std::max(largest_, moved.cwiseAbs().maxCoeff());
-    size_ = std::max(size_, slab.initial_h[0].cwiseAbs().maxCoeff());
-  }
-  double value() const {
+    double largest = 0;
+    for (const auto& [first, rows] : known_)
+      largest = std::max(largest, (moved_.middleRows(first, rows) +
+                                   s * s * model_.initial_body_force[0].block(first, 3, rows, 3))
+                                      .cwiseAbs()
+                                      .maxCoeff());
     const double size = model_.discretisation.method == SpatialMethod::galerkin ? size_ : 1;
-    return largest_ / (size * model_.geometry.extent);
+    return largest / (size * model_.geometry.extent);
   }
 
  private:
   const BodyModel& model_;
+  MatrixForm form_;
   Eigen::MatrixXd turns_;
-  double largest_ = 0, size_ = 0;
+  Eigen::MatrixXcd moved_;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> known_;  ///< first rows, and how many
+  double size_ = 0;
 };
 
 template <class T>
@@ -84,7 +103,7 @@ template <class T>
 void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vector<Slab>& slabs,
                   Targets<T>& targets, const Progress& progress) {
   MatrixSlab<T> slab;
-  RotationResidual rotation(model);
+  RotationResidual rotation(model, assembler.form());
   const double nodes = static_cast<double>(model.nodes());
   const auto set_dense = [&](std::vector<InitialMatrix>& to, std::size_t i,
                              const std::vector<Eigen::MatrixXd>& from, int part, int parts) {
@@ -121,10 +140,10 @@ void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vect
   model.report.rotation_residual = rotation.value();
 }
 
-std::vector<InitialMatrix> dense_matrices(const BodyModel& model) {
+std::vector<InitialMatrix> dense_matrices(const BodyModel& model, MatrixForm form) {
   std::vector<InitialMatrix> out;
   for (const InitialComponent& c : model.discretisation.scheme.initial_components())
-    out.emplace_back(static_cast<Eigen::Index>(3 * model.nodes()), c.paired);
+    out.emplace_back(static_cast<Eigen::Index>(3 * model.nodes()), c.paired, form);
   return out;
 }
 
@@ -141,6 +160,7 @@ void make_regular(const BodyModel& model, std::vector<InitialMatrix>& h) {
   if (model.discretisation.method == SpatialMethod::galerkin)
     scaled *= h.at(0).real.cwiseAbs().maxCoeff();
   h.at(0).real.noalias() -= scaled * rigid_part(model.geometry.nodes);
+  h.at(0).form = MatrixForm::general;
 }
 
 /// Far panels in single precision where neither storage nor tolerance asks for more.
@@ -180,7 +200,7 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
                        const Progress& progress) {
   const int n = static_cast<int>(model.nodes());
   const bool tractions = options.loads != Loads::none;
-  const auto assembler = make_slab_assembler<T>(model, assembly_precision(options));
+  const auto assembler = make_slab_assembler<T>(model, assembly_precision(options), true);
   Targets<T> targets;
   const auto builder = [&](int count) { return make_direct_builder<T>(options.codec, n, count); };
   if (assembler->is_inertial())
@@ -188,8 +208,8 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
   if (model.has_history()) targets.h = builder(assembler->lag_count());
   if (model.has_history() && tractions) targets.g = builder(assembler->lag_count());
   if (options.inverse == InverseKind::dense) {
-    targets.dense_h = dense_matrices(model);
-    if (tractions) targets.dense_g = dense_matrices(model);
+    targets.dense_h = dense_matrices(model, assembler->form());
+    if (tractions) targets.dense_g = dense_matrices(model, MatrixForm::general);
   } else {
     for_each_initial(model.discretisation.scheme, [&](std::size_t, int, int parts) {
       targets.initial_h.push_back(builder(parts));
@@ -209,26 +229,34 @@ class CompressedBuilders {
  public:
   CompressedBuilders(SlabAssembler<float>& assembler, const std::vector<Slab>& slabs,
                      double tolerance)
-      : slabs_(slabs), slab_(slabs[slabs.size() / 2]), tolerance_(tolerance) {
+      : slabs_(slabs),
+        of_h_(with_form(slabs, assembler.form())),
+        form_(assembler.form()),
+        tolerance_(tolerance) {
+    const Slab& typical = typical_slab(slabs_, form_);
+    assembler.assemble(typical.row_begin, typical.row_end, sample_);
     norms_ = assembler.estimate_norms();
-    assembler.assemble(slab_.row_begin, slab_.row_end, sample_);
   }
 
   /// The sample, which the builders that have been made need no more.
   MatrixSlab<float> take_sample() { return std::move(sample_); }
 
-  std::unique_ptr<LowRankBuilder> h() const { return builder(sample_.h, norms_.h, tolerance_); }
-  std::unique_ptr<LowRankBuilder> g() const { return builder(sample_.g, norms_.g, tolerance_); }
+  std::unique_ptr<LowRankBuilder> h() const {
+    return builder(sample_.h, norms_.h, tolerance_, form_);
+  }
+  std::unique_ptr<LowRankBuilder> g() const {
+    return builder(sample_.g, norms_.g, tolerance_, MatrixForm::general);
+  }
   std::unique_ptr<LowRankBuilder> stiffness(double tolerance) const {
-    return builder({sample_.stiffness}, norms_.stiffness, tolerance);
+    return builder({sample_.stiffness}, norms_.stiffness, tolerance, form_);
   }
   /// Of parts of H_0 or G_0. `part_of_tolerance`: less than one for what is an ingredient only.
   std::unique_ptr<LowRankBuilder> initial_h(int first, int count) const {
-    return builder(parts(sample_.initial_h, first, count), norms_.initial_h, tolerance_);
+    return builder(parts(sample_.initial_h, first, count), norms_.initial_h, tolerance_, form_);
   }
   std::unique_ptr<LowRankBuilder> initial_g(int first, int count, double part_of_tolerance) const {
     return builder(parts(sample_.initial_g, first, count), norms_.initial_g,
-                   part_of_tolerance * tolerance_);
+                   part_of_tolerance * tolerance_, MatrixForm::general);
   }
 
  private:
@@ -239,14 +267,17 @@ class CompressedBuilders {
     return out;
   }
   std::unique_ptr<LowRankBuilder> builder(const std::vector<Eigen::MatrixXf>& sample, double norm,
-                                          double tolerance) const {
+                                          double tolerance, MatrixForm form) const {
+    const std::vector<Slab>& slabs = form == MatrixForm::symmetric ? of_h_ : slabs_;
     return std::make_unique<LowRankBuilder>(
-        slabs_, static_cast<int>(sample.size()),
-        LowRankBuilder::choose_quantum(slab_, views(sample), tolerance * norm));
+        slabs, static_cast<int>(sample.size()),
+        LowRankBuilder::choose_quantum(typical_slab(slabs, form_), views(sample), tolerance * norm),
+        form);
   }
 
   const std::vector<Slab>& slabs_;
-  const Slab& slab_;
+  std::vector<Slab> of_h_;
+  MatrixForm form_;
   double tolerance_;
   SlabAssembler<float>::Norms norms_;
   MatrixSlab<float> sample_;
@@ -264,7 +295,7 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
   if (model.has_history() && tractions) targets.g = builders.g();
   if (assembler.is_inertial())
     targets.stiffness = builders.stiffness(stiffness_codec(options.codec).tolerance);
-  if (!iterative) targets.dense_h = dense_matrices(model);
+  if (!iterative) targets.dense_h = dense_matrices(model, assembler.form());
   for_each_initial(model.discretisation.scheme, [&](std::size_t, int part, int parts) {
     if (iterative) targets.initial_h.push_back(builders.initial_h(part, parts));
     if (tractions)
@@ -276,7 +307,7 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
 
 void assemble_compressed(BodyModel& model, const PrecomputeOptions& options,
                          const Progress& progress) {
-  const auto assembler = make_slab_assembler<float>(model, assembly_precision(options));
+  const auto assembler = make_slab_assembler<float>(model, assembly_precision(options), false);
   if (progress) progress("assembly", 0);
   const std::vector<Slab> slabs = make_partition(model.geometry.nodes.vertices, {});
   Targets<float> targets = compressed_targets(*assembler, slabs, model, options);
@@ -323,7 +354,7 @@ StoredEstimate sample_compression(const BodyGeometry& geometry, const Precompute
     slabs.push_back(all[(2 * i + 1) * all.size() / (2 * samples)]);
     rows += slabs.back().row_end - slabs.back().row_begin;
   }
-  const auto assembler = make_slab_assembler<float>(model, assembly_precision(options));
+  const auto assembler = make_slab_assembler<float>(model, assembly_precision(options), false);
   auto start = std::chrono::steady_clock::now();
   Targets<float> targets = compressed_targets(*assembler, slabs, model, iterative);
   if (slabs.size() < all.size()) {  // trials take little of the whole, known slabs save little

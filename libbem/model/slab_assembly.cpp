@@ -27,7 +27,7 @@ SlabAssembler<T>::SlabAssembler(BodyModel& model)
   const auto n = static_cast<Eigen::Index>(3 * model.nodes());
   const std::size_t components = model.discretisation.scheme.initial_components().size();
   for (auto* lags : {&model_.body_force, &model_.centrifugal})
-    lags->assign(lag_count(), Eigen::MatrixXd(n, 6));
+    lags->assign(lag_count(), Eigen::MatrixXd::Zero(n, 6));
   for (auto* initial : {&model_.initial_body_force, &model_.initial_centrifugal})
     initial->assign(components, Eigen::MatrixXcd::Zero(n, 6));
 }
@@ -59,23 +59,40 @@ void SlabAssembler<T>::clear_columns(std::vector<Matrix>& matrices) const {
 }
 
 template <class T>
-void SlabAssembler<T>::distribute_columns(int node, const double* from, int entries,
-                                          int padded_lanes, Eigen::Index first,
-                                          std::vector<Eigen::MatrixXd>& lags,
-                                          std::vector<Eigen::MatrixXcd>& initial) const {
+template <class F>
+void SlabAssembler<T>::change_columns(int node, const double* from, int entries, int padded_lanes,
+                                      Eigen::Index first, std::vector<Eigen::MatrixXd>& lags,
+                                      std::vector<Eigen::MatrixXcd>& initial, const F& f) const {
   const auto& components = model_.discretisation.scheme.initial_components();
   for (int e = 0; e < entries; ++e) {
     const Eigen::Index r = 3 * node + e / (entries / 3), c = first + e % (entries / 3);
     const double* lanes = from + static_cast<std::size_t>(e) * padded_lanes;
     for (int lane = layout_.initial; lane < layout_.count(); ++lane)
-      lags[lane - layout_.initial](r, c) = lanes[lane];
+      f(lags[lane - layout_.initial](r, c), lanes[lane]);
     int lane = 0;
     for (std::size_t i = 0; i < components.size(); ++i) {
       const bool paired = components[i].paired;
-      initial[i](r, c) = Complex(lanes[lane], paired ? lanes[lane + 1] : 0.0);
+      f(initial[i](r, c), Complex(lanes[lane], paired ? lanes[lane + 1] : 0.0));
       lane += paired ? 2 : 1;
     }
   }
+}
+
+template <class T>
+void SlabAssembler<T>::distribute_columns(int node, const double* from, int entries,
+                                          int padded_lanes, Eigen::Index first,
+                                          std::vector<Eigen::MatrixXd>& lags,
+                                          std::vector<Eigen::MatrixXcd>& initial) const {
+  change_columns(node, from, entries, padded_lanes, first, lags, initial,
+                 [](auto& entry, auto value) { entry = value; });
+}
+
+template <class T>
+void SlabAssembler<T>::add_columns(int node, const double* from, int padded_lanes,
+                                   std::vector<Eigen::MatrixXd>& lags,
+                                   std::vector<Eigen::MatrixXcd>& initial) const {
+  change_columns(node, from, 18, padded_lanes, 0, lags, initial,
+                 [](auto& entry, auto value) { entry += value; });
 }
 
 template <class T>
@@ -85,16 +102,19 @@ typename SlabAssembler<T>::Norms SlabAssembler<T>::Norms::root(double scale) con
 }
 
 template <class T>
-std::unique_ptr<SlabAssembler<T>> make_slab_assembler(BodyModel& model,
-                                                      AssemblyPrecision precision) {
+std::unique_ptr<SlabAssembler<T>> make_slab_assembler(BodyModel& model, AssemblyPrecision precision,
+                                                      bool whole) {
   if (model.discretisation.method == SpatialMethod::galerkin)
-    return std::make_unique<GalerkinSlabs<T>>(model, precision);
+    return std::make_unique<GalerkinSlabs<T>>(model, precision,
+                                              whole ? MatrixForm::general : MatrixForm::symmetric);
   return std::make_unique<CollocationSlabs<T>>(model, precision);
 }
 
 template class SlabAssembler<float>;
 template class SlabAssembler<double>;
-template std::unique_ptr<SlabAssembler<float>> make_slab_assembler(BodyModel&, AssemblyPrecision);
-template std::unique_ptr<SlabAssembler<double>> make_slab_assembler(BodyModel&, AssemblyPrecision);
+template std::unique_ptr<SlabAssembler<float>> make_slab_assembler(BodyModel&, AssemblyPrecision,
+                                                                   bool);
+template std::unique_ptr<SlabAssembler<double>> make_slab_assembler(BodyModel&, AssemblyPrecision,
+                                                                    bool);
 
 }  // namespace bem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "algebra/lu.hpp"
+#include "algebra/matrix_form.hpp"
 #include "compress/family_builder.hpp"
 #include "model/body_model.hpp"
 
@@ -12,7 +13,8 @@ namespace bem {
 using Progress = std::function<void(const std::string& phase, double fraction)>;
 
 /// Rows [first, last) of nodes of all lag matrices in memory, column-major, and of the matrices of
-/// lag 0. T: float or double, what is stored.
+/// lag 0. T: float or double, what is stored. Symmetric matrices may lack what is to the left of
+/// the slab's own columns.
 template <class T>
 struct MatrixSlab {
   using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
@@ -48,6 +50,8 @@ class SlabAssembler {
   virtual double row_sum_residual() const = 0;
   /// Whether lags of h multiply accelerations, and slabs have `stiffness`.
   virtual bool is_inertial() const = 0;
+  /// Of h, initial_h and the stiffness.
+  virtual MatrixForm form() const = 0;
 
   /// Matrices of lags >= 1, and parts of lag 0.
   int lag_count() const { return layout_.count() - layout_.initial; }
@@ -65,11 +69,20 @@ class SlabAssembler {
   void distribute_columns(int node, const double* from, int entries, int padded_lanes,
                           Eigen::Index first, std::vector<Eigen::MatrixXd>& lags,
                           std::vector<Eigen::MatrixXcd>& initial) const;
+  /// Adds lanes of 3 x 6 numbers of a node to such matrices.
+  void add_columns(int node, const double* from, int padded_lanes,
+                   std::vector<Eigen::MatrixXd>& lags,
+                   std::vector<Eigen::MatrixXcd>& initial) const;
 
   BodyModel& model_;
   LaneLayout layout_;
 
  private:
+  /// f(entry, value) for every number that such lanes stand for.
+  template <class F>
+  void change_columns(int node, const double* from, int entries, int padded_lanes,
+                      Eigen::Index first, std::vector<Eigen::MatrixXd>& lags,
+                      std::vector<Eigen::MatrixXcd>& initial, const F& f) const;
   template <class Matrix>
   void clear_columns(std::vector<Matrix>& matrices) const;
 
@@ -77,9 +90,9 @@ class SlabAssembler {
 };
 
 /// By the model's discretisation. Its geometry, discretisation and loads must be set; it must
-/// outlive the assembler.
+/// outlive the assembler. `whole`: symmetric matrices, too, are wanted with all their entries.
 template <class T>
-std::unique_ptr<SlabAssembler<T>> make_slab_assembler(BodyModel& model,
-                                                      AssemblyPrecision precision);
+std::unique_ptr<SlabAssembler<T>> make_slab_assembler(BodyModel& model, AssemblyPrecision precision,
+                                                      bool whole);
 
 }  // namespace bem

@@ -60,7 +60,7 @@ std::vector<double> product_errors(const MatrixFamily& exact, const MatrixFamily
 }
 
 /// Codec haar with as many coefficients as take about `bytes`.
-std::unique_ptr<MatrixFamily> haar_of_size(const DenseFamily<float>& dense,
+std::unique_ptr<MatrixFamily> haar_of_size(const DenseFamily<float>& dense, MatrixForm form,
                                            const std::vector<Vec3>& nodes, double bytes,
                                            double& error) {
   constexpr int kTrials = 4;
@@ -70,7 +70,7 @@ std::unique_ptr<MatrixFamily> haar_of_size(const DenseFamily<float>& dense,
   CodecOptions options{Codec::haar, 0, std::max(1.0, entries * kBytesPerEntry / bytes)};
   std::unique_ptr<MatrixFamily> family;
   for (int trial = 0; trial < kTrials; ++trial) {
-    family = recode(dense, nodes, options, error);
+    family = recode(dense, form, nodes, options, error);
     const double factor = static_cast<double>(family->bytes()) / bytes;
     if (std::abs(factor - 1) <= kCloseEnough || (factor < 1 && options.ratio <= 1)) break;
     options.ratio = std::max(1.0, options.ratio * factor);
@@ -100,9 +100,10 @@ Json compare_codecs(BodyModel& model, const std::vector<double>& tolerances) {
     for (double tolerance : tolerances) {
       Json size = {{"tolerance", tolerance}};
       double error = 0;
-      const auto low_rank = recode(dense, nodes, {Codec::lowrank, tolerance, 0}, error);
+      const auto low_rank = recode(dense, named.form, nodes, {Codec::lowrank, tolerance, 0}, error);
       add(size, "lowrank", *low_rank, error);
-      const auto haar = haar_of_size(dense, nodes, static_cast<double>(low_rank->bytes()), error);
+      const auto haar =
+          haar_of_size(dense, named.form, nodes, static_cast<double>(low_rank->bytes()), error);
       add(size, "haar", *haar, error);
       family["sizes"].push_back(size);
     }

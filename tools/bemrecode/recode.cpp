@@ -51,17 +51,17 @@ double norm_of(const DenseFamily<float>& family) {
 
 }  // namespace
 
-std::unique_ptr<MatrixFamily> recode(const DenseFamily<float>& family,
+std::unique_ptr<MatrixFamily> recode(const DenseFamily<float>& family, MatrixForm form,
                                      const std::vector<Vec3>& nodes, const CodecOptions& options,
                                      double& error) {
   std::vector<Slab> slabs;
   std::unique_ptr<FamilyBuilder<float>> builder;
   if (options.codec == Codec::lowrank) {
-    slabs = make_partition(nodes, {});
-    const Slab& middle = slabs[slabs.size() / 2];
-    const double quantum = LowRankBuilder::choose_quantum(middle, Rows(family, middle).views(),
+    slabs = with_form(make_partition(nodes, {}), form);
+    const Slab& sample = typical_slab(slabs, form);
+    const double quantum = LowRankBuilder::choose_quantum(sample, Rows(family, sample).views(),
                                                           options.tolerance * norm_of(family));
-    builder = std::make_unique<LowRankBuilder>(slabs, family.count(), quantum);
+    builder = std::make_unique<LowRankBuilder>(slabs, family.count(), quantum, form);
   } else {
     const int count = static_cast<int>(nodes.size());
     slabs = direct_slabs(options, count);
@@ -75,16 +75,20 @@ std::unique_ptr<MatrixFamily> recode(const DenseFamily<float>& family,
 
 std::vector<NamedFamily> families_of(BodyModel& model) {
   ModelReport::CodecErrors& e = model.report.codec_errors;
-  std::vector<NamedFamily> out = {{"h", &model.h, &e.h}};
-  if (model.g) out.push_back({"g", &model.g, &e.g});
-  if (model.stiffness) out.push_back({"stiffness", &model.stiffness, &e.stiffness});
-  const auto add = [&](const char* name, auto& families, double& error) {
-    for (auto& family : families) out.push_back({name, &family, &error});
+  const MatrixForm of_h = model.discretisation.method == SpatialMethod::galerkin
+                              ? MatrixForm::symmetric
+                              : MatrixForm::general;
+  const MatrixForm of_inverse = model.kind == ModelKind::quasistatic ? MatrixForm::general : of_h;
+  std::vector<NamedFamily> out = {{"h", of_h, &model.h, &e.h}};
+  if (model.g) out.push_back({"g", MatrixForm::general, &model.g, &e.g});
+  if (model.stiffness) out.push_back({"stiffness", of_h, &model.stiffness, &e.stiffness});
+  const auto add = [&](const char* name, MatrixForm form, auto& families, double& error) {
+    for (auto& family : families) out.push_back({name, form, &family, &error});
   };
-  add("inverse", model.inverse, e.inverse);
-  add("traction_response", model.traction_response, e.traction_response);
-  add("initial_h", model.initial_h, e.initial_h);
-  add("initial_g", model.initial_g, e.initial_g);
+  add("inverse", of_inverse, model.inverse, e.inverse);
+  add("traction_response", MatrixForm::general, model.traction_response, e.traction_response);
+  add("initial_h", of_h, model.initial_h, e.initial_h);
+  add("initial_g", MatrixForm::general, model.initial_g, e.initial_g);
   return out;
 }
 
@@ -101,7 +105,7 @@ void recode(BodyModel& model, const CodecOptions& options) {
   for (const NamedFamily& named : families_of(model)) {
     double error = 0;
     const bool stiffness = named.family == &model.stiffness;
-    *named.family = recode(dense_family(named), model.geometry.nodes.vertices,
+    *named.family = recode(dense_family(named), named.form, model.geometry.nodes.vertices,
                            stiffness ? stiffness_codec(options) : options, error);
     *named.error = std::max(*named.error, error);
   }

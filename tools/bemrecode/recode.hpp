@@ -1,5 +1,6 @@
 #pragma once
 
+#include "algebra/matrix_form.hpp"
 #include "compress/codec.hpp"
 #include "compress/dense_family.hpp"
 #include "model/body_model.hpp"
@@ -7,14 +8,15 @@
 namespace bem {
 
 /// An uncompressed family compressed, to a tolerance relative to its own Frobenius norm. `nodes`:
-/// in the order of the archive. `error`: what was reached.
-std::unique_ptr<MatrixFamily> recode(const DenseFamily<float>& family,
+/// in the order of the archive. `form`: of the matrices. `error`: what was reached.
+std::unique_ptr<MatrixFamily> recode(const DenseFamily<float>& family, MatrixForm form,
                                      const std::vector<Vec3>& nodes, const CodecOptions& options,
                                      double& error);
 
 /// A family of a model: h, g, and those of lag 0 by initial component.
 struct NamedFamily {
   std::string name;
+  MatrixForm form;
   std::unique_ptr<MatrixFamily>* family;
   double* error;  ///< where the model has that of the codec
 };

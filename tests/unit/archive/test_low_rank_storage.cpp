@@ -20,12 +20,14 @@ struct Tables {
   Numbers blocks{0, size, 0, size, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   Numbers couplings{0, 0, 0, 0, 0, 0};
   std::size_t synthesis = 0;  ///< bytes
+  bool symmetric = false;
 
   std::pair<int, std::string> refusal() const {
     const test::TemporaryFolder folder("low_rank_tables");
     Hdf5File out = Hdf5File::create(folder / "a");
     out.create_group("/m");
     out.set_attribute("/m", "quantum", 1.0);
+    if (symmetric) out.set_attribute("/m", "symmetric", 1);
     out.write("/m/slabs", slabs, {slabs.size() / 3, 3});
     out.write("/m/blocks", blocks, {blocks.size() / 17, 17});
     out.write("/m/couplings", couplings, {couplings.size() / 6, 6});
@@ -82,6 +84,33 @@ TEST_CASE("blocks must tile their slabs") {
   }
 }
 
+TEST_CASE("blocks of a symmetric family tile what is on and to the right of its own blocks") {
+  const auto refused = [](const std::function<void(Tables&)>& change) {
+    Tables tables{12};
+    tables.symmetric = true;
+    tables.slabs[2] = 3;
+    tables.couplings.insert(tables.couplings.end(), 12, 0);
+    Numbers second = tables.blocks, third = tables.blocks;
+    tables.blocks[1] = tables.blocks[3] = 5;  // [0, 5) with itself
+    second[1] = second[2] = 5;                // and with [5, 12)
+    third[0] = third[2] = 5;                  // that with itself
+    for (const Numbers& block : {second, third})
+      tables.blocks.insert(tables.blocks.end(), block.begin(), block.end());
+    change(tables);
+    return tables.refusal();
+  };
+  CHECK(refused([](Tables&) {}).first == 0);
+  CHECK(refused([](Tables& t) { t.symmetric = false; }).first == 4);
+  for (const auto& [place, value] : std::vector<std::pair<std::size_t, std::int32_t>>{
+           {1, 4}, {3, 6}, {17 + 2, 4}, {17 + 3, 11}, {17, 1}, {34, 4}, {34 + 2, 0}, {34 + 2, 6}}) {
+    CAPTURE(place, value);
+    const auto [code, message] =
+        refused([place = place, value = value](Tables& t) { t.blocks[place] = value; });
+    CHECK(code == 4);
+    CHECK_THAT(message, Contains("/m/blocks"));
+  }
+}
+
 TEST_CASE("single precision entries of compressed matrices are finite") {
   Tables tables{3};
   tables.couplings = {3, 3, 3, 3, 3, 3};
@@ -101,7 +130,8 @@ TEST_CASE("single precision entries of compressed matrices are finite") {
   Hdf5File out = Hdf5File::create(folder / "a");
   std::vector<LowRankSlab> slabs;
   slabs.push_back(std::move(slab));
-  write_low_rank(out, "/m", LowRankFamily(3, 1, 1.0, std::move(slabs)), [](std::size_t) {});
+  write_low_rank(out, "/m", LowRankFamily(3, 1, 1.0, std::move(slabs), MatrixForm::general),
+                 [](std::size_t) {});
   out.close();
   const Hdf5File file = Hdf5File::open(folder / "a", ErrorCode::archive);
   const auto [code, message] =

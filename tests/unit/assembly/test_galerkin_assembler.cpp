@@ -63,9 +63,9 @@ TEST_CASE("assembled rows of lag 0 are those of the scalar reference") {
     const GalerkinCombination combination(d, assembler.layout());
     const int n = static_cast<int>(nodes.vertices.size()), first = n / 3, last = 2 * n / 3;
     GalerkinRows<double> rows;
-    assembler.assemble(first, last, rows);
+    assembler.assemble(first, last, MatrixForm::general, rows);
     GalerkinRows<float> narrow;
-    assembler.assemble(first, last, narrow);
+    assembler.assemble(first, last, MatrixForm::general, narrow);
     int lane = 0;
     for (const InitialComponent& c : d.scheme.initial_components()) {
       const LaplaceMatrices expected =
@@ -95,7 +95,7 @@ TEST_CASE("loads on triangles are those of nodal tractions where these are the s
   const GalerkinCombination combination(d, assembler.layout());
   const int n = static_cast<int>(nodes.vertices.size()), lanes = assembler.layout().count();
   GalerkinRows<double> rows;
-  assembler.assemble(0, n, rows);
+  assembler.assemble(0, n, MatrixForm::general, rows);
   // all triangles around node 1 with its hat function
   std::vector<PanelLoad> loads;
   for (int t = 0; t < static_cast<int>(nodes.triangles.size()); ++t)
@@ -122,9 +122,9 @@ TEST_CASE("distant patches are summed by midpoints as well as by pairs of triang
   Discretisation d = discretisation("bdf1", size, 0.3);
   const int n = static_cast<int>(nodes.vertices.size());
   GalerkinRows<float> rows, exact;
-  GalerkinAssembler(nodes, size, d).assemble(0, n, rows);
+  GalerkinAssembler(nodes, size, d).assemble(0, n, MatrixForm::general, rows);
   d.quadrature_tolerance = 1e-8;  // the rule of the midpoints is too coarse for it
-  GalerkinAssembler(nodes, size, d).assemble(0, n, exact);
+  GalerkinAssembler(nodes, size, d).assemble(0, n, MatrixForm::general, exact);
   double worst[4] = {}, largest[4] = {};
   int pairs = 0;
   for (int i = 0; i < n; ++i)
@@ -160,4 +160,42 @@ TEST_CASE("distant patches are summed by midpoints as well as by pairs of triang
     most = std::max(most, std::abs(exact.strain[i]));
   }
   CHECK(strain < 2e-4 * most);
+}
+
+TEST_CASE("entries on and beyond the diagonal are those of whole rows, which are symmetric") {
+  const TriangleMesh nodes = centred(box(Vec3(10, 0.8, 0.8), {10, 1, 1}));
+  const double size = diameter(nodes.vertices);
+  const Discretisation d = discretisation("bdf1", size, 0.3);
+  const GalerkinAssembler assembler(nodes, size, d);
+  const int n = static_cast<int>(nodes.vertices.size()), middle = n / 2;
+  GalerkinRows<double> whole, upper;
+  assembler.assemble(0, n, MatrixForm::general, whole);
+  assembler.assemble(middle, n, MatrixForm::symmetric, upper);
+  CHECK(upper.inertia.size() < whole.inertia.size() / 3);
+  const double tiny = 1e-13;
+  double largest = 0, worst[4] = {};
+  for (int i = 0; i < 3 * n; ++i)
+    for (int j = 0; j < 3 * n; ++j) {
+      const int lanes = whole.padded_lanes, from = 3 * (i % 3) + j % 3, back = 3 * (j % 3) + i % 3;
+      const double z = whole.inertia_block(i / 3, j / 3)[from * lanes];
+      const auto note = [&](int kind, double difference) {
+        worst[kind] = std::max(worst[kind], std::abs(difference));
+      };
+      largest = std::max(largest, std::abs(z));
+      note(0, whole.static_h(i, j) - whole.static_h(j, i));
+      note(1, z - whole.inertia_block(j / 3, i / 3)[back * lanes]);
+      if (i < 3 * middle || j / 3 < i / 3) continue;
+      note(2, upper.static_h(i - 3 * middle, j) - whole.static_h(i, j));
+      note(3, upper.inertia_block(i / 3 - middle, j / 3)[from * lanes] - z);
+    }
+  const double stiffness = whole.static_h.cwiseAbs().maxCoeff();
+  CHECK(worst[0] < tiny * stiffness);
+  CHECK(worst[1] < tiny * largest);
+  CHECK(worst[2] < tiny * stiffness);
+  CHECK(worst[3] < tiny * largest);
+  CHECK((upper.static_g - whole.static_g.bottomRows(3 * (n - middle))).norm() <
+        tiny * whole.static_g.norm());
+  // a translation has no stiffness
+  const Eigen::MatrixXd moves = Mat3::Identity().replicate(n, 1);
+  CHECK((whole.static_h * moves).cwiseAbs().maxCoeff() < 1e-12 * stiffness);
 }

@@ -40,6 +40,11 @@ TEST_CASE("layers hold what rounding leaves, in as few bytes as the sizes allow"
   std::vector<float> column(layers.stored_rows());
   load_layers_column(layers, data.data(), 5, column.data());
   for (int i = 0; i < layers.stored_rows(); ++i) CHECK(column[i] == back(i, 5));
+  for (int i : {3, 30}) {
+    std::vector<float> row(layers.stored_columns());
+    load_layers_row(layers, data.data(), i, row.data());
+    for (int j = 0; j < layers.stored_columns(); ++j) CHECK(row[j] == back(i, j));
+  }
 }
 
 TEST_CASE("a matrix of zeros has no layers") {
@@ -59,17 +64,27 @@ TEST_CASE("products of layers agree with their entries on every instruction set"
       store_layers(layers, errors, data);
       data.resize(data.size() + 64);
       const Eigen::VectorXf x = Eigen::VectorXf::Random(37);
-      const Eigen::VectorXd expected = load_layers(layers, data.data()).cast<double>() *
-                                       x.head(layers.stored_columns()).cast<double>();
+      const Eigen::MatrixXd stored = load_layers(layers, data.data()).cast<double>();
+      const Eigen::VectorXd expected = stored * x.head(layers.stored_columns()).cast<double>();
+      const Eigen::VectorXf left = Eigen::VectorXf::Random(rows);
+      const Eigen::VectorXd from_left =
+          stored.transpose() * left.head(layers.stored_rows()).cast<double>();
       for (int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
         Eigen::VectorXf y = Eigen::VectorXf::Constant(rows, 2);
         multiply_layers(layers, data.data(), x.data(), y.data());
+        Eigen::VectorXf transposed = Eigen::VectorXf::Constant(37, 2);
+        multiply_layers_transposed(layers, data.data(), left.data(), transposed.data());
         hwy::SetSupportedTargetsForTest(0);
         const Eigen::VectorXd errors_of_y =
             (y.head(layers.stored_rows()).cast<double>().array() - 2).matrix() - expected;
         CHECK(errors_of_y.cwiseAbs().maxCoeff() < 2e-6 * largest);
         CHECK((y.tail(rows - layers.stored_rows()).array() == 2).all());
+        const Eigen::VectorXd errors_from_left =
+            (transposed.head(layers.stored_columns()).cast<double>().array() - 2).matrix() -
+            from_left;
+        CHECK(errors_from_left.cwiseAbs().maxCoeff() < 2e-6 * largest);
+        CHECK((transposed.tail(37 - layers.stored_columns()).array() == 2).all());
       }
     }
 }

@@ -15,12 +15,13 @@ struct Example : MatrixExample {
       : MatrixExample(icosphere(subdivisions, 1).vertices, range) {}
 
   std::unique_ptr<MatrixFamily> compress(double tolerance, double* error = nullptr,
-                                         const PartitionOptions& options = {20, 64, 2.0}) const {
-    const std::vector<Slab> partition = make_partition(nodes, options);
+                                         const PartitionOptions& options = {20, 64, 2.0},
+                                         MatrixForm form = MatrixForm::general) const {
+    const std::vector<Slab> partition = with_form(make_partition(nodes, options), form);
     const Slab& middle = partition[partition.size() / 2];
     LowRankBuilder builder(
         partition, kMatrices,
-        LowRankBuilder::choose_quantum(middle, rows_of(middle), tolerance * norm));
+        LowRankBuilder::choose_quantum(middle, rows_of(middle), tolerance * norm), form);
     for (const Slab& slab : partition) builder.add_rows(rows_of(slab));
     if (error) *error = builder.error();
     return builder.finish();
@@ -74,7 +75,8 @@ TEST_CASE("the error of the matrices is about the tolerance, and the builder kno
 }
 
 TEST_CASE("products, sparse, transposed and left products agree with the entries") {
-  const auto family = sphere().compress(1e-3);
+  const MatrixForm form = GENERATE(MatrixForm::general, MatrixForm::symmetric);
+  const auto family = sphere().compress(1e-3, nullptr, {20, 64, 2.0}, form);
   const auto n = static_cast<Eigen::Index>(family->rows());
   std::vector<Eigen::MatrixXd> full;
   for (int k = 0; k < kMatrices; ++k) full.push_back(full_matrix(*family, k));
@@ -99,14 +101,29 @@ TEST_CASE("products, sparse, transposed and left products agree with the entries
       full[0].transpose() * x.col(0) - 3 * full[2].transpose() * x.col(1);
   CHECK((y - transposed).norm() < 3e-6 * transposed.norm());
 
+  if (form == MatrixForm::symmetric) return;
   const FloatMatrix left = FloatMatrix::Random(150, n);
   const Eigen::MatrixXd right =
       dynamic_cast<const LowRankFamily&>(*family).multiply_left(left, 0).cast<double>();
   CHECK((right - left.cast<double>() * full[0]).norm() < 3e-6 * right.norm());
 }
 
+TEST_CASE("symmetric matrices take not much more than half, with the same error") {
+  const auto general = sphere().compress(1e-4);
+  double claimed = 0;
+  const auto family = sphere().compress(1e-4, &claimed, {20, 64, 2.0}, MatrixForm::symmetric);
+  CHECK(static_cast<double>(family->bytes()) < 0.6 * static_cast<double>(general->bytes()));
+  CHECK(sphere().error_of(*family) == Approx(claimed).epsilon(0.05));
+  CHECK(claimed == Approx(sphere().error_of(*general)).epsilon(0.1));
+  for (int k = 0; k < kMatrices; ++k) {
+    const Eigen::MatrixXd full = full_matrix(*family, k);
+    CHECK((full - full.transpose()).norm() < 2e-4 * full.norm());  // rounding of own blocks
+  }
+}
+
 TEST_CASE("sums of matrices and blocks of them") {
-  const auto family = sphere().compress(1e-3);
+  const MatrixForm form = GENERATE(MatrixForm::general, MatrixForm::symmetric);
+  const auto family = sphere().compress(1e-3, nullptr, {20, 64, 2.0}, form);
   const auto sums = family->combine({{1, 1, 1}, {0, 2, -1}});
   REQUIRE(sums->count() == 2);
   const Eigen::MatrixXd all =
@@ -120,12 +137,13 @@ TEST_CASE("sums of matrices and blocks of them") {
 }
 
 TEST_CASE("compression and products are bit-identical for any number of threads") {
+  const MatrixForm form = GENERATE(MatrixForm::general, MatrixForm::symmetric);
   const Eigen::MatrixXd x = Eigen::MatrixXd::Random(3 * sphere().nodes.size(), kMatrices);
   std::vector<Eigen::MatrixXd> results;
   std::vector<std::vector<std::uint8_t>> bytes;
   for (int threads : {1, 2, 5}) {
     set_thread_count(threads);
-    const auto family = sphere().compress(1e-4);
+    const auto family = sphere().compress(1e-4, nullptr, {20, 64, 2.0}, form);
     results.push_back(products(*family, x, 1));
     bytes.push_back(dynamic_cast<const LowRankFamily&>(*family).slabs()[2].synthesis);
   }
@@ -139,7 +157,7 @@ TEST_CASE("tiny bodies and vanishing matrices are compressed, too") {
   const Example tetrahedron(0);
   const auto family = tetrahedron.compress(1e-4);
   CHECK(tetrahedron.error_of(*family) < 3e-4);
-  LowRankBuilder builder(make_partition(tetrahedron.nodes, {}), 1, 1e-6);
+  LowRankBuilder builder(make_partition(tetrahedron.nodes, {}), 1, 1e-6, MatrixForm::general);
   const FloatMatrix zeros = FloatMatrix::Zero(36, 36);
   builder.add_rows({MatrixView<float>(zeros.data(), 36, 36, Eigen::OuterStride<>(36))});
   const auto nothing = builder.finish();
