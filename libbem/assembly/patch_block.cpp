@@ -55,6 +55,10 @@ void PatchBlock<T>::sum_by_shapes(const PairIntegrals& pairs, const SurfacePatch
   if (with_h) set_zero(own_inertia_, x.shape_count * y.shape_count * entry);
   set_zero(own_adjoint_, x.shape_count * hats * entry);
   set_zero(own_strain_, x.shape_count * 18 * stride);
+  const Vector6 pressure = pairs.pressure_of_strain();
+  std::vector<Eigen::Matrix<double, 3, 6>> tractions;
+  for (int t : y.triangles)
+    tractions.push_back(pairs.shear_of_strain(pairs.quadrature().normal(t)));
   for (std::size_t i = 0; i < x.triangles.size(); ++i)
     for (std::size_t k = 0; k < y.triangles.size(); ++k) {
       set_zero(uniform_, PairSums<T>::kUniform * kShapes * stride);
@@ -68,10 +72,8 @@ void PatchBlock<T>::sum_by_shapes(const PairIntegrals& pairs, const SurfacePatch
         sums.uniform[a] = &uniform_[a * PairSums<T>::kUniform * stride];
       }
       pairs.add(x.triangles[i], y.triangles[k], lanes, pair_batch_, scratch_, sums);
-      const Eigen::Matrix<double, 3, 6> tractions =
-          pairs.shear_of_strain(pairs.quadrature().normal(y.triangles[k]));
       for (int a = 0; a < kShapes; ++a)
-        add_strain(sums.uniform[a], lanes.padded_lanes, tractions, pairs.pressure_of_strain(),
+        add_strain(sums.uniform[a], lanes.padded_lanes, tractions[k], pressure,
                    &own_strain_[x.shapes[i][a] * 18 * stride]);
     }
 }
@@ -85,6 +87,8 @@ void add_strain_of_midpoints(const PairIntegrals& pairs, const T* uniform, int p
                              T* out) {
   const Vector6 pressure = pairs.pressure_of_strain();
   const std::size_t stride = padded_lanes;
+  Eigen::Matrix<double, 3, 6> tractions[3];  // of the axes as normals
+  for (int k = 0; k < 3; ++k) tractions[k] = pairs.shear_of_strain(Vec3::Unit(k));
   for (int i = 0; i < 3; ++i)
     for (int c = 0; c < 6; ++c) {
       T* to = out + (6 * i + c) * stride;
@@ -94,10 +98,8 @@ void add_strain_of_midpoints(const PairIntegrals& pairs, const T* uniform, int p
         for (std::size_t lane = 0; lane < stride; ++lane)
           to[lane] += static_cast<T>(factor) * from[lane];
       };
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Matrix<double, 3, 6> tractions = pairs.shear_of_strain(Vec3::Unit(k));
-        for (int l = 0; l < 3; ++l) add(tractions(l, c), 9 * i + 3 * l + k);
-      }
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) add(tractions[k](l, c), 9 * i + 3 * l + k);
       add(pressure[c], 27 + i);
     }
 }

@@ -8,11 +8,16 @@
 
 namespace bem {
 
-/// Allocator of memory that starts on a cache line, as vector loads want it.
+/// Memory that starts on a cache line, as vector loads want it; large pieces start on a page of 2
+/// MB and ask the system for such pages, of which it has fewer to set up and to look up. Throws
+/// std::bad_alloc.
+void* allocate_aligned(std::size_t bytes);
+/// `bytes`: as allocated.
+void deallocate_aligned(void* memory, std::size_t bytes);
+
 template <class T>
 struct AlignedAllocator {
   using value_type = T;
-  static constexpr std::size_t kAlignment = 64;
 
   AlignedAllocator() = default;
   template <class U>
@@ -20,9 +25,9 @@ struct AlignedAllocator {
 
   T* allocate(std::size_t n) {
     if (n > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw std::bad_array_new_length();
-    return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(kAlignment)));
+    return static_cast<T*>(allocate_aligned(n * sizeof(T)));
   }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(kAlignment)); }
+  void deallocate(T* p, std::size_t n) { deallocate_aligned(p, n * sizeof(T)); }
 
   /// resize() leaves new numbers as they are in memory.
   template <class U>

@@ -18,7 +18,8 @@ struct ModelReport {
   double condition = 0;          ///< |H_0|_1 |H_0^{-1}|_1; 0 if there is no inverse
   double growth = 0;             ///< largest growth factor per step of the free body, window 1
   double growth_frequency = 0;   ///< of the motion that grows so [1/s]; not in archives
-  /// What the codec has changed, relative Frobenius norms over all matrices of a kind.
+  /// What the codec has changed, relative Frobenius norms over all matrices of a kind; of G in the
+  /// inertial form over all lags with lag 0.
   struct CodecErrors {
     double h = 0, g = 0, stiffness = 0, inverse = 0, traction_response = 0, initial_h = 0,
            initial_g = 0;

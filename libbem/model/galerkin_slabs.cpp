@@ -52,10 +52,9 @@ void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
   this->prepare(first, last, slab);
   if (is_inertial()) slab.stiffness.resize(3 * (last - first), slab.initial_h.at(0).cols());
   with_rows(first, last, [&](const auto& rows) {
-    parallel_for(last - first, [&](std::size_t row) {
-      const int node = first + static_cast<int>(row);
-      distribute_h(rows, node, slab);
-      distribute_g(rows, node, slab);
+    parallel_for(rows.nodes, [&](std::size_t j) {
+      distribute_h(rows, static_cast<int>(j), slab);
+      distribute_g(rows, static_cast<int>(j), slab);
     });
     if (known_[first] != 0) return;
     const int end = form_ == MatrixForm::symmetric ? rows.nodes : last;
@@ -66,24 +65,24 @@ void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
   });
 }
 
-/// The row of a node; of symmetric matrices from the diagonal on, with its mirror image in the
-/// slab.
+/// The columns of node j; of symmetric matrices down to the diagonal, with the mirror image of what
+/// is in the slab.
 template <class T>
 template <class S>
-void GalerkinSlabs<T>::distribute_h(const GalerkinRows<S>& rows, int node,
-                                    MatrixSlab<T>& slab) const {
+void GalerkinSlabs<T>::distribute_h(const GalerkinRows<S>& rows, int j, MatrixSlab<T>& slab) const {
   const bool symmetric = form_ == MatrixForm::symmetric;
-  const int row = node - rows.first, initial = this->layout_.initial, count = this->layout_.count();
+  const int initial = this->layout_.initial, count = this->layout_.count();
+  const int end = symmetric ? std::min(slab.last, j + 1) : slab.last;
   std::vector<double> lanes(count);
-  for (int j = symmetric ? node : 0; j < rows.nodes; ++j)
+  for (int node = slab.first; node < end; ++node)
     for (int e = 0; e < 9; ++e) {
       const Eigen::Index to = 3 * (node - slab.first) + e / 3, column = 3 * j + e % 3;
       const bool mirrored = symmetric && j > node && j < slab.last;
-      const Eigen::Index to_mirrored = column - 3 * slab.first, at_mirrored = 3 * node + e / 3;
       const auto set = [&](auto& matrix, auto value) {
         matrix(to, column) = value;
-        if (mirrored) matrix(to_mirrored, at_mirrored) = value;
+        if (mirrored) matrix(column - 3 * slab.first, to + 3 * slab.first) = value;
       };
+      const int row = node - rows.first;
       const double static_part = rows.static_h(3 * row + e / 3, column);
       const S* z = rows.inertia_block(row, j) + e * rows.padded_lanes;
       combination_.initial_h(static_part, z, lanes.data());
@@ -96,21 +95,20 @@ void GalerkinSlabs<T>::distribute_h(const GalerkinRows<S>& rows, int node,
 
 template <class T>
 template <class S>
-void GalerkinSlabs<T>::distribute_g(const GalerkinRows<S>& rows, int node,
-                                    MatrixSlab<T>& slab) const {
-  const int row = node - rows.first, initial = this->layout_.initial, count = this->layout_.count();
+void GalerkinSlabs<T>::distribute_g(const GalerkinRows<S>& rows, int j, MatrixSlab<T>& slab) const {
+  if (!this->is_loaded(j)) return;
+  const int initial = this->layout_.initial, count = this->layout_.count();
   std::vector<double> lanes(count);
-  for (int j = 0; j < rows.nodes; ++j) {
-    if (!this->is_loaded(j)) continue;
+  for (int node = slab.first; node < slab.last; ++node)
     for (int e = 0; e < 9; ++e) {
       const Eigen::Index to = 3 * (node - slab.first) + e / 3, column = 3 * j + e % 3;
+      const int row = node - rows.first;
       combination_.g(rows.static_g(3 * row + e / 3, column),
                      rows.adjoint_block(row, j) + e * rows.padded_lanes, lanes.data());
       for (int lane = 0; lane < initial; ++lane) slab.initial_g[lane](to, column) = lanes[lane];
       for (int lane = initial; lane < count; ++lane)
         slab.g[lane - initial](to, column) = static_cast<T>(lanes[lane]);
     }
-  }
 }
 
 /// [D Q] = -Z R of the frame's accelerations, and Z u + J p/c2^2 of uniform strain: what rows of
@@ -163,6 +161,7 @@ void GalerkinSlabs<T>::add_body_forces(const GalerkinRows<S>& rows, int first, i
                     this->model_.initial_centrifugal);
 }
 
+/// Of a row and, where they are in memory, its mirror images.
 template <class T>
 template <class S>
 void GalerkinSlabs<T>::add_squares(const GalerkinRows<S>& rows, int row,
@@ -170,38 +169,43 @@ void GalerkinSlabs<T>::add_squares(const GalerkinRows<S>& rows, int row,
   const int count = this->layout_.count(), initial = this->layout_.initial;
   std::vector<double> lanes(count);
   const auto square = [](double a) { return a * a; };
-  const bool symmetric = rows.form == MatrixForm::symmetric;
   const int node = rows.first + row;
-  for (int j = 0; j < rows.nodes; ++j)
+  for (int j = rows.first_column; j < rows.nodes; ++j) {
+    const bool mirrored = rows.form == MatrixForm::symmetric && j < node;
+    const int from = mirrored ? j - rows.first : row, to = mirrored ? node : j;
     for (int e = 0; e < 9; ++e) {
-      const Eigen::Index from = 3 * row + e / 3, column = 3 * j + e % 3;
-      if (!symmetric || j >= node) {
-        const double times = symmetric && j > node && j < rows.last ? 2 : 1;  // mirror images
-        const S* z = rows.inertia_block(row, j) + e * rows.padded_lanes;
-        sum.stiffness += times * square(rows.static_h(from, column));
-        combination_.initial_h(rows.static_h(from, column), z, lanes.data());
-        for (int lane = 0; lane < initial; ++lane) sum.initial_h += times * square(lanes[lane]);
-        for (int lane = initial; lane < count; ++lane) sum.h += times * square(z[lane]);
-      }
-      if (!this->is_loaded(j)) continue;
-      combination_.g(rows.static_g(from, column),
+      const double static_part = rows.static_h(3 * from + e / 3, 3 * to + e % 3);
+      const S* z = rows.inertia_block(from, to) + e * rows.padded_lanes;
+      sum.stiffness += square(static_part);
+      combination_.initial_h(static_part, z, lanes.data());
+      for (int lane = 0; lane < initial; ++lane) sum.initial_h += square(lanes[lane]);
+      for (int lane = initial; lane < count; ++lane) sum.h += square(z[lane]);
+    }
+  }
+  for (int j = 0; j < rows.nodes; ++j) {
+    if (!this->is_loaded(j)) continue;
+    for (int e = 0; e < 9; ++e) {
+      combination_.g(rows.static_g(3 * row + e / 3, 3 * j + e % 3),
                      rows.adjoint_block(row, j) + e * rows.padded_lanes, lanes.data());
       for (int lane = 0; lane < count; ++lane)
         (lane < initial ? sum.initial_g : sum.g) += square(lanes[lane]);
     }
+  }
 }
 
 /// From the rows that are in memory if these are many, else from some single ones.
 template <class T>
 typename SlabAssembler<T>::Norms GalerkinSlabs<T>::estimate_norms() {
   constexpr int kSamples = 6, kMany = 4;  // a part 1/kMany
+  constexpr int kEnough = 64;             // of those in memory
   const int n = static_cast<int>(this->model_.nodes());
   typename SlabAssembler<T>::Norms sum;
   if (kMany * rows_in_memory() >= n) {
     with_rows(0, 1, [&](const auto& rows) {
-      const int count = rows.last - rows.first;
-      for (int i = 0; i < count; ++i) add_squares(rows, i, sum);
-      sum = sum.root(static_cast<double>(n) / count);
+      const int count = rows.last - rows.first, samples = std::min(count, kEnough);
+      for (int i = 0; i < samples; ++i)
+        add_squares(rows, static_cast<int>((2L * i + 1) * count / (2 * samples)), sum);
+      sum = sum.root(static_cast<double>(n) / samples);
     });
     return sum;
   }

@@ -29,9 +29,9 @@ class GalerkinSlabs : public SlabAssembler<T> {
                    typename SlabAssembler<T>::Norms& sum) const;
   int rows_in_memory() const;
   template <class S>
-  void distribute_h(const GalerkinRows<S>& rows, int node, MatrixSlab<T>& slab) const;
+  void distribute_h(const GalerkinRows<S>& rows, int j, MatrixSlab<T>& slab) const;
   template <class S>
-  void distribute_g(const GalerkinRows<S>& rows, int node, MatrixSlab<T>& slab) const;
+  void distribute_g(const GalerkinRows<S>& rows, int j, MatrixSlab<T>& slab) const;
   template <class S>
   void add_body_forces(const GalerkinRows<S>& rows, int first, int last, int node);
 

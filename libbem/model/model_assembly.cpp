@@ -95,6 +95,7 @@ struct Targets {
   std::unique_ptr<FamilyBuilder<T>> stiffness;                          ///< of the inertial form
   std::vector<std::unique_ptr<FamilyBuilder<T>>> initial_h, initial_g;  ///< by initial component
   std::vector<InitialMatrix> dense_h, dense_g;  ///< the same, to be inverted
+  double g_part = 1;                            ///< CompressedBuilders::g_part()
   std::optional<MatrixSlab<T>> known;           ///< a slab that is assembled already
 };
 
@@ -183,7 +184,7 @@ template <class T>
 void take_families(Targets<T>& targets, BodyModel& model) {
   ModelReport::CodecErrors& errors = model.report.codec_errors;
   if (targets.h) errors.h = finish(*targets.h, model.h);
-  if (targets.g) errors.g = finish(*targets.g, model.g);
+  if (targets.g) errors.g = targets.g_part * finish(*targets.g, model.g);
   if (targets.stiffness) errors.stiffness = finish(*targets.stiffness, model.stiffness);
   const auto take = [](auto& builders, auto& families, double& error) {
     for (auto& builder : builders) {
@@ -236,7 +237,14 @@ class CompressedBuilders {
     const Slab& typical = typical_slab(slabs_, form_);
     assembler.assemble(typical.row_begin, typical.row_end, sample_);
     norms_ = assembler.estimate_norms();
+    if (!assembler.is_inertial()) return;
+    // what tractions do at once, by G_0, is most of what they do
+    g_part_ = norms_.g / std::hypot(norms_.g, norms_.initial_g);
+    norms_.g /= g_part_;
   }
+
+  /// Norm of G over that which its errors are measured by.
+  double g_part() const { return g_part_; }
 
   /// The sample, which the builders that have been made need no more.
   MatrixSlab<float> take_sample() { return std::move(sample_); }
@@ -279,6 +287,7 @@ class CompressedBuilders {
   std::vector<Slab> of_h_;
   MatrixForm form_;
   double tolerance_;
+  double g_part_ = 1;
   SlabAssembler<float>::Norms norms_;
   MatrixSlab<float> sample_;
 };
@@ -293,6 +302,7 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
   Targets<float> targets;
   if (model.has_history()) targets.h = builders.h();
   if (model.has_history() && tractions) targets.g = builders.g();
+  targets.g_part = builders.g_part();
   if (assembler.is_inertial())
     targets.stiffness = builders.stiffness(stiffness_codec(options.codec).tolerance);
   if (!iterative) targets.dense_h = dense_matrices(model, assembler.form());
