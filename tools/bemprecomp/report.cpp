@@ -1,6 +1,7 @@
 #include "report.hpp"
 
 #include "archive/archive_layout.hpp"
+#include "assembly/mesh_coarseness.hpp"
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
 #include "mesh/describe.hpp"
@@ -28,7 +29,7 @@ Json material_json(const Material& m) {
   return json;
 }
 
-Json body_json(const BodyGeometry& g) {
+Json body_json(const BodyGeometry& g, ModelKind kind) {
   const Vec3& c = g.mass.centre;
   const BoundingBox box = bounding_box(g.input.vertices);
   Json json = {{"nodes", g.nodes.vertices.size()},
@@ -40,6 +41,7 @@ Json body_json(const BodyGeometry& g) {
                 {{"min", {box.min[0], box.min[1], box.min[2]}},
                  {"max", {box.max[0], box.max[1], box.max[2]}}}},
                {"extent", g.extent}};
+  if (kind != ModelKind::rigid) json["mesh_coarseness"] = mesh_coarseness(g.nodes);
   if (g.corner_angle_deg) json["corner_angle_deg"] = *g.corner_angle_deg;
   return json;
 }
@@ -108,13 +110,17 @@ class Table {
   std::ostream& out_;
 };
 
-void print_body(Table& table, const BodyGeometry& g, const Material& m) {
+void print_body(Table& table, const BodyGeometry& g, const Material& m, ModelKind kind) {
   table.line("mesh", g.input.vertices.size(), " vertices, ", g.input.triangles.size(),
              " triangles, ", g.nodes.vertices.size(), " nodes");
   const BoundingBox box = bounding_box(g.input.vertices);
   table.line("mesh box", to_text(box.min), " to ", to_text(box.max), " m");
   table.line("body", "extent ", g.extent, " m, volume ", g.mass.volume, " m^3, mass ", g.mass.mass,
              " kg");
+  if (kind != ModelKind::rigid)
+    table.line("coarseness", "linear triangles leave out ",
+               rounded_text(100 * mesh_coarseness(g.nodes), 2),
+               " % of uniform bending and twisting");
   if (g.corner_angle_deg)
     table.line("corners", "double nodes along edges sharper than ", *g.corner_angle_deg,
                " degrees");
@@ -141,7 +147,7 @@ Json info_json(const Archive& archive) {
                {"mesh",
                 {{"vertices", archive.geometry().input.vertices.size()},
                  {"faces", archive.geometry().input.triangles.size()}}},
-               {"body", body_json(archive.geometry())},
+               {"body", body_json(archive.geometry(), archive.kind())},
                {"material", material_json(archive.discretisation().material)},
                {"provenance",
                 {{"program", p.program},
@@ -225,7 +231,7 @@ void print_info(std::ostream& out, const Archive& archive) {
              bytes_text(static_cast<double>(archive.user_block().payload + kUserBlock)),
              ", format version ", archive.user_block().version);
   table.line("model", model_name(archive.kind()));
-  print_body(table, archive.geometry(), archive.discretisation().material);
+  print_body(table, archive.geometry(), archive.discretisation().material, archive.kind());
   if (archive.kind() != ModelKind::rigid) print_matrices(table, archive);
   table.line("made by", p.program, " from ", p.mesh_file, " (times ", p.mesh_scale, ") and ",
              p.material_file);
@@ -236,7 +242,7 @@ void print_info(std::ostream& out, const Archive& archive) {
 void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
   Table table(out);
   const Discretisation& d = plan.options.discretisation;
-  print_body(table, plan.geometry, d.material);
+  print_body(table, plan.geometry, d.material, plan.options.kind);
   const char* bound = plan.uncompressed ? "less than " : "";  // a sample was too much to compress
   table.line("archive size", bound, bytes_text(plan.archive_bytes));
   if (plan.options.kind == ModelKind::rigid) return;
@@ -270,7 +276,7 @@ Json stats_json(const BodyModel& model, const std::string& archive, const PhaseT
                {"wall_seconds", timer.total_wall_seconds()},
                {"peak_memory_bytes", peak_memory()},
                {"phases", phases},
-               {"body", body_json(model.geometry)},
+               {"body", body_json(model.geometry, model.kind)},
                {"material", material_json(model.discretisation.material)},
                {"warnings", warnings}};
   if (model.kind == ModelKind::rigid) return json;

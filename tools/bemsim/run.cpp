@@ -55,6 +55,7 @@ class Run {
     std::unique_ptr<StateReader> earlier;
     if (options.resume) earlier = open_checkpoint(options.output, identity_, plan.steps, saved_);
     simulation_ = std::make_unique<Simulation>(plan.scene, source);
+    statistics_.prepare(*simulation_);
     check_interrupt();
     bar_.finish();
     log_.detail(bytes_text(static_cast<double>(simulation_->matrix_bytes())) +

@@ -59,6 +59,7 @@ std::optional<std::string> RunStatistics::record_step(const Simulation& simulati
   most_.penetration = std::max(most_.penetration, s.penetration);
   contact_steps_ += s.contacts > 0;
   vibrations_.record(simulation);
+  coarse_.record(simulation);
   return unmet_.record(simulation);
 }
 
@@ -108,7 +109,8 @@ Json momentum_json(const MomentumBalance& m) {
           {"angular_end", vector_json(m.angular_end)}};
 }
 
-Json body_json(const PlannedBody& planned, const Body& body, const Json& growing) {
+Json body_json(const PlannedBody& planned, const Body& body, const Json& coarseness,
+               const Json& growing) {
   const BodyModel& model = body.model();
   Json out{{"name", body.name()},
            {"archive", planned.spec->archive.written},
@@ -120,6 +122,7 @@ Json body_json(const PlannedBody& planned, const Body& body, const Json& growing
            {"linear_momentum", vector_json(body.linear_momentum())},
            {"angular_momentum", vector_json(body.frame().angular_momentum())},
            {"validity", validity_json(body)}};
+  if (!coarseness.is_null()) out["coarseness"] = coarseness;
   if (!growing.is_null()) out["growing_vibration"] = growing;
   return out;
 }
@@ -136,7 +139,7 @@ Json RunStatistics::json(const Plan& plan, const Simulation& simulation, const P
   }
   Json bodies = Json::array();
   for (std::size_t i = 0; i < plan.bodies.size(); ++i)
-    bodies.push_back(body_json(plan.bodies[i], simulation.bodies()[i],
+    bodies.push_back(body_json(plan.bodies[i], simulation.bodies()[i], coarse_.json(simulation, i),
                                vibrations_.json(i, plan.scene.time_step)));
   std::vector<std::string> all = plan.warnings;
   for (std::string& text : warnings(plan, simulation)) all.push_back(std::move(text));
