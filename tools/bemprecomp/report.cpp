@@ -110,6 +110,11 @@ class Table {
   std::ostream& out_;
 };
 
+/// "2.8 %", "104 %".
+std::string percent_text(double share) {
+  return rounded_text(100 * share, share < 1 ? 2 : 3) + " %";
+}
+
 void print_body(Table& table, const BodyGeometry& g, const Material& m, ModelKind kind) {
   table.line("mesh", g.input.vertices.size(), " vertices, ", g.input.triangles.size(),
              " triangles, ", g.nodes.vertices.size(), " nodes");
@@ -118,9 +123,8 @@ void print_body(Table& table, const BodyGeometry& g, const Material& m, ModelKin
   table.line("body", "extent ", g.extent, " m, volume ", g.mass.volume, " m^3, mass ", g.mass.mass,
              " kg");
   if (kind != ModelKind::rigid)
-    table.line("coarseness", "linear triangles leave out ",
-               rounded_text(100 * mesh_coarseness(g.nodes), 2),
-               " % of uniform bending and twisting");
+    table.line("coarseness", "linear triangles leave out ", percent_text(mesh_coarseness(g.nodes)),
+               " of uniform bending and twisting");
   if (g.corner_angle_deg)
     table.line("corners", "double nodes along edges sharper than ", *g.corner_angle_deg,
                " degrees");

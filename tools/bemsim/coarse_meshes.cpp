@@ -34,6 +34,8 @@ void CoarseMeshes::prepare(const Simulation& simulation) {
 }
 
 void CoarseMeshes::record(const Simulation& simulation) {
+  constexpr long kAllUpTo = 256, kInterval = 8;  // steps
+  if (simulation.steps() > kAllUpTo && simulation.steps() % kInterval != 0) return;
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     const Body& body = simulation.bodies()[i];
     if (!body.is_rigid())

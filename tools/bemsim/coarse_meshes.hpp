@@ -19,7 +19,8 @@ class CoarseMeshes {
   /// Before the first step: what is computed once for every archive. The simulation stays.
   void prepare(const Simulation& simulation);
 
-  /// One more step.
+  /// One more step. Of a long run it looks at every eighth step only: steps of small bodies take
+  /// not much longer than this.
   void record(const Simulation& simulation);
   /// What has been found of a body of the scene; null of a rigid one.
   nlohmann::ordered_json json(const Simulation& simulation, std::size_t body) const;
