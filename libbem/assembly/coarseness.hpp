@@ -31,8 +31,8 @@ struct Refinement {
 /// How coarse a mesh is for a displacement field that is given at its vertices.
 ///
 /// The field is that of EdgeReconstruction: linear on triangles with a bubble on every edge. The
-/// bubble is h^2/8 times the second derivative along the edge, h its length: what linear triangles
-/// leave out, and the leading term of what the mesh gets wrong. eta, the norm of the bubble part
+/// bubble is -h^2/8 times the second derivative along the edge, h its length: what linear triangles
+/// leave out (docs/method.md, "How coarse a mesh is"). eta, the norm of the bubble part
 /// over that of the deformation, is of order h^2. It does not depend on rigid motions, on the scale
 /// of displacements or on that of the mesh, and it is zero for rigid motions with uniform strain,
 /// whose bubbles vanish.
@@ -45,16 +45,16 @@ class Coarseness {
   double area() const { return area_; }  ///< [m^2]
 
   /// Norms of the field with the displacements of all vertices, 3 per vertex [m]. Exact but for
-  /// rounding; O(n), about 0.2 us per vertex.
+  /// rounding; O(n), about 0.1 us per vertex.
   FieldNorms norms(const Eigen::VectorXd& displacement) const;
   WorstEdge worst_edge(const Eigen::VectorXd& displacement) const;
 
-  /// Triangles that are cut into four have bubbles of a quarter of the size, so a triangle with the
-  /// share q_t = int |b|^2 dA contributes q_t/16 instead. The squares have to fall to a quarter for
-  /// eta to halve: C/16 + (Q - C) <= Q/4 for the sum C over the triangles that are cut, thus
-  /// C >= 4/5 Q. The triangles with the largest q_t are taken until this holds. Each of their edges
-  /// gets one node at its midpoint; neighbours that are not taken are cut in two or three there,
-  /// without further nodes. O(n log n).
+  /// Triangles that are cut into four have bubbles of a quarter of the size, so a triangle that
+  /// contributes q_t = int |b|^2 dA contributes q_t/16 then. The squares have to fall to a quarter
+  /// for eta to halve: C/16 + (Q - C) <= Q/4 for the sum C over the triangles that are cut, thus C
+  /// >= 4/5 Q. The triangles with the largest q_t are taken until this holds. Each of their edges
+  /// gets one node at its midpoint; neighbours that are not taken are cut there, without
+  /// further nodes. O(n log n).
   Refinement halving(const Eigen::VectorXd& displacement) const;
 
  private:
