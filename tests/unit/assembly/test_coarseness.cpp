@@ -60,13 +60,14 @@ FieldNorms norms_by_quadrature(const TriangleMesh& mesh, const Eigen::VectorXd& 
       const auto shape = quadratic_shapes(l);
       Vec3 x = Vec3::Zero(), linear = Vec3::Zero(), whole = Vec3::Zero();
       for (int k = 0; k < 3; ++k) {
-        const int v = mesh.triangles[t][k];
+        const Eigen::Index v = mesh.triangles[t][k];
         x += l[k] * mesh.vertices[v];
         linear += l[k] * displacement.segment<3>(3 * v);
       }
       for (std::size_t j = 0; j < basis.vertices.size(); ++j)
         for (int i = 0; i < 6; ++i)
-          whole += basis.weights[j][i] * shape[i] * displacement.segment<3>(3 * basis.vertices[j]);
+          whole += basis.weights[j][i] * shape[i] *
+                   displacement.segment<3>(3 * Eigen::Index{basis.vertices[j]});
       u.segment<3>(row) = root * whole;
       b.segment<3>(row) = root * (whole - linear);
       rigid.block<3, 3>(row, 0) = root * Mat3::Identity();
@@ -89,8 +90,8 @@ TEST_CASE("the mass matrix of quadratic shape functions is that of a quadrature 
   }
   CHECK((mass - expected).cwiseAbs().maxCoeff() < 1e-14);
   const PairTractions with_linear = mass_matrix(2.5);
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 3; ++j)
+  for (Eigen::Index i = 0; i < 6; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j)
       CHECK(with_linear(3 * i, 3 * j) == Approx(2.5 * mass(i, j)).margin(1e-14));
 }
 
@@ -197,7 +198,7 @@ TEST_CASE("the triangles to cut are the fewest with four fifths of the squares",
     for (int k = 0; k < 3; ++k) {
       const int e = reconstruction.edges().of[t][k];
       b[k].setZero();
-      for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v)
+      for (Eigen::Index v = 0; v < reconstruction.coefficients().cols(); ++v)
         b[k] += reconstruction.coefficients().coeff(e, v) * u.segment<3>(3 * v);
     }
     squares.emplace_back(triangle_area(mesh, mesh.triangles[t]) * bubble_square(b[0], b[1], b[2]),
