@@ -43,7 +43,7 @@ precompute() {  # NAME MESH: an archive and its statistics for every scheme
     scheme=${pair%=*}
     echo "$1, $scheme"
     "$bin/bemprecomp" "$2" "$material" -o "$out/$1-${scheme%:*}.bem" --scheme "$scheme" \
-      --dt "$(time_step "$2" "${pair#*=}")" --quadrature-tol 1e-6 --codec none --stats "$out/$1-${scheme%:*}.json" --force -q
+      --discretisation collocation --dt "$(time_step "$2" "${pair#*=}")" --quadrature-tol 1e-6 --codec none --stats "$out/$1-${scheme%:*}.json" --force -q
   done
 }
 

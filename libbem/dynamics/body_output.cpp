@@ -9,8 +9,9 @@ namespace {
 /// Of motions that have no meaning any more.
 constexpr const char* kCures =
     "if its loads or handles do that, make them smaller or its material stiffer, or cut it into "
-    "parts that welds join; if not, its motion is unstable: make its archive with --window auto "
-    "(or a smaller window), a larger --dt, a smaller --codec-tol or a finer mesh";
+    "parts that welds join; if not, its motion is unstable: make its archive with "
+    "--discretisation galerkin, with --window auto (or a smaller window), a larger --dt, a smaller "
+    "--codec-tol or a finer mesh";
 
 }  // namespace
 

@@ -16,7 +16,7 @@ struct ModelReport {
   double row_sum_residual = 0;   ///< largest row sum that the translation identity had to repair
   double rotation_residual = 0;  ///< of H_0 W = -s^2 Q_0, relative to |H_0| (M42)
   double condition = 0;          ///< |H_0|_1 |H_0^{-1}|_1; 0 if there is no inverse
-  double growth = 0;             ///< largest growth factor per step of the free body, window 1
+  double growth = 0;             ///< per step of the free body with window 1; 0: not measured
   double growth_frequency = 0;   ///< of the motion that grows so [1/s]; not in archives
   /// What the codec has changed, relative Frobenius norms over all matrices of a kind; of G in the
   /// inertial form over all lags with lag 0.

@@ -28,8 +28,9 @@ double automatic_window(const BodyModel& model) {
   const Discretisation& d = model.discretisation;
   throw Error(ErrorCode::numerical,
               "motions grow by a factor of " + std::to_string(growth) +
-                  " per step, and a window that prevents it would leave nothing of them; use a "
-                  "larger --dt (a shear wave goes " +
+                  " per step, and a window that prevents it would leave nothing of them; use " +
+                  (d.method == SpatialMethod::galerkin ? "" : "--discretisation galerkin or ") +
+                  "a larger --dt (a shear wave goes " +
                   std::to_string(d.material.shear_speed() * d.dt / edge) +
                   " of the longest edge in a step; sharp edges with a Poisson ratio near 0.5 need "
                   "about 1), a finer mesh or a longer --history, or set --window yourself");

@@ -62,14 +62,15 @@ def deformations(frames):
 
 
 def statistics(place):
-    """From --stats of bemsim; windows and growth of the archives."""
+    """From --stats of bemsim; windows of the archives, and their growth where it was measured."""
     stats = load(place / "stats.json")
     if not stats:
         return {}
     bodies = stats["bodies"]
+    growth = [b["growth"] for b in bodies if "growth" in b]
     return {"steps": stats["steps"], "not met": stats["constraints"]["steps_not_converged"],
-            "momentum defect": stats["momentum"]["relative_defect"],
-            "growth": max(b["growth"] for b in bodies), "window": min(b["window"] for b in bodies)}
+            "momentum defect": stats["momentum"]["relative_defect"], "window": min(b["window"] for b in bodies),
+            **({"growth": max(growth)} if growth else {})}
 
 
 def history(place):

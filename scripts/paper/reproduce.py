@@ -23,6 +23,8 @@ def arguments():
     parser.add_argument("--small", action="store_true", help="coarse meshes and few steps: all of it in minutes")
     parser.add_argument("--threads", type=int, default=1, metavar="N", help="of bemsim (1, as in the paper)")
     parser.add_argument("--scheme", default="bdf1", help="of the archives (bdf1, as in the paper)")
+    parser.add_argument("--discretisation", default="collocation", choices=["collocation", "galerkin"],
+                        help="of the archives (collocation, as in the paper)")
     parser.add_argument("--update-docs", action="store_true", help="puts tables and pictures into docs")
     options = parser.parse_args()
     options.scenes = []
@@ -33,8 +35,8 @@ def arguments():
                            if name in (s, scene.figure, "all") and s not in options.scenes]
     if options.threads < 1:
         parser.error("--threads needs a number from 1 on")
-    if options.update_docs and (options.small or options.scheme != "bdf1"):
-        parser.error("the documents show runs in full size with bdf1")
+    if options.update_docs and (options.small or (options.scheme, options.discretisation) != ("bdf1", "collocation")):
+        parser.error("the documents show runs in full size with bdf1 and collocation")
     return options
 
 
@@ -49,14 +51,16 @@ def programs():
 
 
 def folder(options):
-    """out/paper, and beside its archives what other meshes or schemes need in a folder of its own."""
-    name = "-".join(["small"] * options.small + [options.scheme.replace(":", "")] * (options.scheme != "bdf1"))
+    """out/paper, and beside its archives what other meshes, schemes or discretisations need in a folder of its own."""
+    name = "-".join(["small"] * options.small + [options.scheme.replace(":", "")] * (options.scheme != "bdf1") +
+                    [options.discretisation] * (options.discretisation != "collocation"))
     return ROOT / "out/paper" / name
 
 
 def main():
     options = arguments()
-    workspace = Workspace(folder(options), programs(), options.small, options.threads, options.scheme)
+    workspace = Workspace(folder(options), programs(), options.small, options.threads, options.scheme,
+                          options.discretisation)
     for name in options.scenes:
         print(f"== {name}", file=sys.stderr)
         workspace.prepare(name)

@@ -65,11 +65,12 @@ def changed(content, changes):
 
 
 class Workspace:
-    """`folder` receives everything; `binaries` holds the programs of the project."""
+    """`folder` receives everything; `binaries` holds the programs of the project. Scheme and discretisation are
+    the paper's unless others are given."""
 
-    def __init__(self, folder, binaries, small=False, threads=1, scheme="bdf1"):
+    def __init__(self, folder, binaries, small=False, threads=1, scheme="bdf1", discretisation="collocation"):
         self.folder, self.binaries = pathlib.Path(folder), pathlib.Path(binaries)
-        self.small, self.threads, self.scheme = small, threads, scheme
+        self.small, self.threads, self.scheme, self.discretisation = small, threads, scheme, discretisation
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def run(self, program, *arguments, output=None):
@@ -119,7 +120,7 @@ class Workspace:
             command = ["bemrecode", self.folder / f"{source}.bem", "-o", path, "--force", *options]
         else:
             mesh, material = self.mesh(name), SOURCES / f"material-{body.material}.json"
-            options = ["--scheme", self.scheme, "--dt", body.dt, *self._scale(body), *body.options]
+            options = ["--scheme", self.scheme, "--discretisation", self.discretisation, "--dt", body.dt, *self._scale(body), *body.options]
             inputs = [mesh.read_text(), material.read_text(), *options]
             command = ["bemprecomp", mesh, material, "-o", path, "--force", "--stats",
                        self.folder / f"{name}.precompute.json", *options]

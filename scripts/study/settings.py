@@ -8,7 +8,8 @@ BASE = "radau2"  # the default, which single factors are varied around
 @dataclasses.dataclass(frozen=True)
 class Setting:
     """`mesh` is the problem's measure of fineness, `steps` the number of time steps per period of the problem
-    (docs/accuracy.md), `history` 0 the default, `extra` more options of bemprecomp."""
+    (docs/accuracy.md), `history` 0 the default, `extra` more options of bemprecomp. What docs/accuracy.md shows
+    is of collocation."""
     mesh: int
     steps: int
     scheme: str = BASE
@@ -18,6 +19,7 @@ class Setting:
     window: str = "auto"
     history: int = 0
     model: str = "dynamic"
+    discretisation: str = "collocation"
     extra: tuple = ()
 
     def options(self):
@@ -25,7 +27,7 @@ class Setting:
         if self.model != "dynamic":
             return ["--model", self.model]
         found = ["--scheme", self.scheme, "--codec", self.codec, "--quadrature-tol", self.quadrature,
-                 "--window", self.window]
+                 "--window", self.window, "--discretisation", self.discretisation]
         if self.codec != "none":
             found += ["--codec-tol", self.codec_tol]
         if self.history:
@@ -36,7 +38,7 @@ class Setting:
         """Its name in the results: what differs from the defaults."""
         words = [f"mesh {self.mesh}", f"{self.steps} steps", self.scheme if self.model == "dynamic" else self.model]
         defaults = {f.name: f.default for f in dataclasses.fields(self)}
-        for name in ("codec", "codec_tol", "quadrature", "window", "history"):
+        for name in ("codec", "codec_tol", "quadrature", "window", "history", "discretisation"):
             value = getattr(self, name)
             if value != defaults[name]:
                 words.append(f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}")

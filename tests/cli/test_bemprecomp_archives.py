@@ -104,9 +104,9 @@ class Archives(CliCase):
         self.assertIn("cannot be compared", text)
 
     def test_a_rigid_translation_costs_no_force(self):
-        """Reads an archive as its documentation says: H_0 T is tiny for a large time step."""
+        """Reads an archive of collocation as its documentation says: H_0 T is tiny for a large time step."""
         self.run_tool("sphere.obj", "rubber.json", "--dt", "100", "--scheme", "bdf1", "-o", "a.bem",
-                      "--codec", "none", "--precision", "float64")
+                      "--discretisation", "collocation", "--codec", "none", "--precision", "float64")
         with h5py.File(self.folder / "a.bem") as archive:
             inverse = archive["matrices/inverse/component_0/real"][:]
             later = sum(archive[f"matrices/h/{lag}/component_0"][:]
@@ -121,6 +121,28 @@ class Archives(CliCase):
         self.assertLess(np.abs((h0 + later) @ translation).max(), 1e-9)
         self.assertEqual(faces.shape, (80, 3))
         self.assertAlmostEqual(np.linalg.norm(vertices, axis=1).max(), 0.1, 12)
+
+    def test_a_rigid_translation_costs_its_mass(self):
+        """Reads an archive in inertial form as its documentation says."""
+        dt = 0.01
+        self.precompute("--codec", "none", "--precision", "float64")
+        with h5py.File(self.folder / "a.bem") as archive:
+            self.assertEqual(archive["scheme"].attrs["discretisation"], "galerkin")
+            inverse = archive["matrices/inverse/component_0/real"][:]
+            stiffness = archive["matrices/stiffness/real"][:]
+            lags = [archive[f"matrices/h/{lag}/component_0"][:] for lag in archive["matrices/h"]]
+            body = archive["matrices/body_force/component_0/real"][:, :3]
+            later = archive["matrices/body_force/lags"][:, 0, :, :3]
+            mass = archive["body"].attrs["mass"]
+        size = np.abs(stiffness).max()
+        translation = np.tile(np.eye(3), (len(inverse) // 3, 1))
+        self.assertLess(np.abs(stiffness @ translation).max(), 1e-12 * size)
+        self.assertLess(np.abs(stiffness - stiffness.T).max(), 1e-6 * size)
+        # H_0 T = Z_0 T/dt^2 = -D_0/dt^2, of later lags Z_k T = -D_k, and all of them together weigh the body
+        self.assertLess(np.abs(np.linalg.solve(inverse, translation) + body / dt**2).max(), 1e-10 * size)
+        for z, d in zip(lags, later):
+            self.assertLess(np.abs(z @ translation + d).max(), 1e-10 * np.abs(body).max())
+        np.testing.assert_allclose(-translation.T @ (body + later.sum(axis=0)), mass * np.eye(3), rtol=0, atol=1e-4 * mass)
 
     def test_examples_of_the_documentation_run(self):
         self.run_tool("sphere.obj", "rubber.json", "-o", "sphere.bem", "--dt", "0.01")

@@ -4,6 +4,8 @@ import os
 import subprocess
 import unittest
 
+import h5py
+
 from cli_case import CliCase
 
 
@@ -30,11 +32,22 @@ class Recode(CliCase):
                 self.assertLess(max(float(line.split("relative error ")[1]) for line in different), 3e-3)
             self.assertFalse([line for line in lines if line.startswith("provenance")], lines)
 
+    def test_archives_of_collocation_have_no_stiffness(self):
+        self.precompute("--codec", "none", "--discretisation", "collocation", output="dense.bem")
+        self.recode("dense.bem", "-o", "recoded.bem", "--codec-tol", 1e-3)
+        self.precompute("--codec-tol", "1e-3", "--discretisation", "collocation", output="direct.bem")
+        for name in ("recoded.bem", "direct.bem"):
+            with h5py.File(self.folder / name) as archive:
+                self.assertNotIn("stiffness", archive["matrices"])
+                self.assertNotIn("discretisation", archive["scheme"].attrs)
+        lines = self.run_tool("--diff", "direct.bem", "recoded.bem", code=1).stdout.splitlines()
+        self.assertFalse([line for line in lines if line.startswith(("provenance", "scheme"))], lines)
+
     def test_comparison(self):
         self.sphere(2)
         self.precompute("--codec", "none", output="dense.bem")
         found = json.loads(self.recode("dense.bem", "--compare", 1e-2, 1e-3).stdout)
-        self.assertEqual([f["name"] for f in found["families"]], ["h", "g", "inverse", "traction_response"])
+        self.assertEqual([f["name"] for f in found["families"]], ["h", "g", "stiffness", "inverse", "traction_response"])
         for family in found["families"]:
             self.assertEqual(family["dense_bytes"], 4 * family["matrices"] * (3 * found["nodes"])**2)
             coarse, fine = family["sizes"]

@@ -211,8 +211,19 @@ class Statistics(SimulationCase):
                                    rtol=1e-9, atol=1e-9)
         np.testing.assert_allclose(free["angular_momentum"], np.zeros(3), atol=1e-9)
         for body in bodies:
-            self.assertTrue(0 < body["window"] <= 1)
-            self.assertTrue(0 < body["growth"] < 2)
+            self.assertEqual(body["window"], 1)
+            self.assertNotIn("growth", body)  # it is not measured by default
+
+    def test_growth_that_an_archive_knows_is_told(self):
+        program("bemprecomp", models / "ball.obj", models / "rubber.json", "-o", self.folder / "ball.bem", "--dt", DT,
+                "--discretisation", "collocation", "--quiet")
+        self.scene["bodies"][0]["archive"] = "ball.bem"
+        self.simulate("--steps", 1, "--stats", self.folder / "stats.json")
+        told = json.loads((self.folder / "stats.json").read_text())["bodies"][0]
+        with h5py.File(self.folder / "ball.bem") as archive:
+            self.assertEqual(told["growth"], archive["report"].attrs["growth"])
+            self.assertEqual(told["window"], archive["scheme"].attrs["window"])
+        self.assertTrue(0.9 < told["growth"] < 1.1)
 
     def test_vibrations_of_a_held_body_that_grow_are_warned_of(self):
         material = {"name": "gum", "density": 1000, "shear_modulus": 1e7, "poisson_ratio": 0.3}
@@ -233,14 +244,18 @@ class Statistics(SimulationCase):
                 x = file["bodies/beam/positions"][:, :, 2].mean(axis=1)
             return stats["bodies"][0].get("growing_vibration"), warnings, np.ptp(x[60:]) / np.ptp(x[:60])
 
-        found, warning, ratio = growth()
+        found, warning, ratio = growth()  # the default
+        self.assertEqual((found, warning), (None, ""))
+        self.assertTrue(0.9 < ratio < 1.01, ratio)
+        found, warning, ratio = growth("--discretisation", "collocation")
         self.assertGreater(ratio, 1.2)
         self.assertAlmostEqual(found["growth"]**60 / ratio, 1, 1)
         self.assertAlmostEqual(found["frequency"] / 5.2, 1, 1)
         self.assertIn('the body "beam" vibrates with 5.', warning)
+        self.assertIn("with --discretisation galerkin", warning)
         window, damping = re.search("--window ([0-9.e-]+), or with --damping ([a-z_]+:[0-9.e-]+)", warning).groups()
         for cure in (("--window", window), ("--damping", damping)):
-            found, warning, ratio = growth(*cure)
+            found, warning, ratio = growth("--discretisation", "collocation", *cure)
             self.assertEqual(warning, "", cure)
             self.assertAlmostEqual(ratio, 1, 1, cure)
 

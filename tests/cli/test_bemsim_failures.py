@@ -173,18 +173,25 @@ class Failures(SimulationCase):
         material = {"name": "gum", "density": 1000, "shear_modulus": 1e6, "poisson_ratio": 0.5}
         (self.folder / "gum.json").write_text(json.dumps(material))
         program("bemshape", "box", "--size", 1, 1, 1, "--divisions", 2, 2, 2, "-o", self.folder / "cube.obj")
-        program("bemprecomp", self.folder / "cube.obj", self.folder / "gum.json", "-o", self.folder / "cube.bem",
-                "--dt", 0.002, "--window", 1, "--quiet")
+        make = ["bemprecomp", self.folder / "cube.obj", self.folder / "gum.json", "-o", self.folder / "cube.bem",
+                "--dt", 0.002, "--quiet", "--force"]
+        program(*make, "--window", 1, "--discretisation", "collocation")
         self.scene.update(time_step=0.002, duration=1, gravity=[0, 0, 0], bodies=[
             {"name": "cube", "archive": "cube.bem",
              "tractions": [{"select": "all", "pressure": 1000, "profile": [[0, 1], [0.002, 1], [0.003, 0]]}]}])
         done = self.simulate(expect=5)
         self.assertRegex(done.stderr, 'error: body "cube" is (deformed to|turned inside out)')
-        self.assertIn("--window auto", done.stderr)
+        for cure in ("--discretisation galerkin", "--window auto"):
+            self.assertIn(cure, done.stderr)
         with self.trajectory() as file:
             x = file["bodies/cube/positions"][:]
         self.assertGreater(len(x), 5)
         self.assertLess(np.abs(x).max(), 200)
+        program(*make)
+        self.assertEqual(self.simulate("--force", "--quiet").stderr, "")
+        with self.trajectory() as file:
+            x = file["bodies/cube/positions"][:]
+        self.assertLess(np.abs(x - x[0]).max(), 0.01)
 
     def test_command_line(self):
         scene = ["scene.json", "-o", "out"]

@@ -3,7 +3,8 @@
 
     run.py [--update] [NAME...]
 
-scenes.txt has a line per scene: name, steps, tolerance. The tolerance is a length over the body's size: how
+scenes.txt has a line per run: scene, steps, tolerance and, where it is not the paper's, the discretisation; the name
+of the run is that of the scene and its discretisation, SCENE or SCENE-galerkin. The tolerance is a length over the body's size: how
 far sampled vertices and centres may be from where they were, at the middle and at the end of the run, and
 how far volumes may be from theirs, over the volume. NAME.txt is the reference. With --update references are
 written instead. The environment variable BEM_BIN names the folder of the programs.
@@ -11,6 +12,7 @@ written instead. The environment variable BEM_BIN names the folder of the progra
 Exit codes: 0 ok, 1 a run differs or a program failed, 2 usage.
 """
 import argparse
+import dataclasses
 import os
 import pathlib
 import sys
@@ -27,14 +29,27 @@ from paper.workspace import Failed, Workspace  # noqa: E402
 SAMPLES = 5  # vertices of each body
 
 
-def scenes():
-    """(name, steps, tolerance) of every line of scenes.txt."""
+@dataclasses.dataclass(frozen=True)
+class Run:
+    """A line of scenes.txt."""
+    scene: str
+    steps: int
+    tolerance: float
+    discretisation: str = "collocation"
+
+    @property
+    def name(self):
+        return self.scene if self.discretisation == "collocation" else f"{self.scene}-{self.discretisation}"
+
+
+def runs():
+    """Those of scenes.txt."""
     found = []
     for line in (HERE / "scenes.txt").read_text().splitlines():
         words = line.split("#")[0].split()
         if words:
-            name, steps, tolerance = words
-            found.append((name, int(steps), float(tolerance)))
+            scene, steps, tolerance, *discretisation = words
+            found.append(Run(scene, int(steps), float(tolerance), *discretisation))
     return found
 
 
@@ -84,41 +99,43 @@ def deviation(found, reference, size):
     return worst
 
 
-def check(workspace, name, steps, tolerance, update):
+def check(workspace, run, update):
     """Runs a scene; returns whether it is as it was."""
-    workspace.prepare(name)
-    workspace.simulate(name, steps)
-    found, size = summary(measures.Motion(workspace.trajectory(name)))
-    path = HERE / f"{name}.txt"
+    workspace.prepare(run.scene)
+    workspace.simulate(run.scene, run.steps)
+    found, size = summary(measures.Motion(workspace.trajectory(run.scene)))
+    path = HERE / f"{run.name}.txt"
     if update:
         write(path, found)
         return True
     if not path.exists():
-        print(f"FAILED {name}: there is no reference; make one with --update")
+        print(f"FAILED {run.name}: there is no reference; make one with --update")
         return False
     worst, line = deviation(found, read(path), size)
-    good = worst <= tolerance
-    print(f"{'ok    ' if good else 'FAILED'} {name}: off by {worst:.1e} of {tolerance:g} ({line})", flush=True)
+    good = worst <= run.tolerance
+    print(f"{'ok    ' if good else 'FAILED'} {run.name}: off by {worst:.1e} of {run.tolerance:g} ({line})", flush=True)
     return good
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("names", nargs="*", metavar="NAME", help="scenes (all)")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="runs (all)")
     parser.add_argument("--update", action="store_true", help="write the references")
     options = parser.parse_args()
-    known = scenes()
+    known = runs()
     for name in options.names:
-        if name not in [scene[0] for scene in known]:
+        if name not in [run.name for run in known]:
             parser.error(f"'{name}' is not in scenes.txt")
     if "BEM_BIN" not in os.environ:
         parser.error("the environment variable BEM_BIN must name the folder of the programs")
     good = True
     with tempfile.TemporaryDirectory(prefix="bem_regression_") as folder:
-        workspace = Workspace(folder, pathlib.Path(os.environ["BEM_BIN"]).resolve(), small=True)
-        for scene in known:
-            if not options.names or scene[0] in options.names:
-                good &= check(workspace, *scene, options.update)
+        binaries = pathlib.Path(os.environ["BEM_BIN"]).resolve()
+        for run in known:
+            if not options.names or run.name in options.names:
+                workspace = Workspace(pathlib.Path(folder, run.discretisation), binaries, small=True,
+                                      discretisation=run.discretisation)
+                good &= check(workspace, run, options.update)
     return 0 if good else 1
 
 

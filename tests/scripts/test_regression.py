@@ -48,12 +48,14 @@ class Regression(unittest.TestCase):
     def test_the_centre_is_that_of_the_volume(self):
         np.testing.assert_allclose(run.centre(TETRAHEDRON + 5, FACES), [5.25] * 3, atol=1e-12)
 
-    def test_every_scene_of_the_list_has_a_reference(self):
-        for name, steps, tolerance in run.scenes():
-            self.assertIn(name, SCENES)
-            self.assertGreater(steps, 0)
-            self.assertLess(tolerance, 0.2)
-            self.assertTrue((ROOT / f"tests/regression/{name}.txt").exists(), name)
+    def test_every_run_of_the_list_has_a_reference(self):
+        runs = run.runs()
+        for one in runs:
+            self.assertIn(one.scene, SCENES)
+            self.assertGreater(one.steps, 0)
+            self.assertLess(one.tolerance, 0.2)
+            self.assertTrue((ROOT / f"tests/regression/{one.name}.txt").exists(), one.name)
+        self.assertEqual({one.discretisation for one in runs}, {"collocation", "galerkin"})
 
 
 if __name__ == "__main__":

@@ -111,11 +111,15 @@ while [ $# -gt 0 ]; do [ "$1" != -o ] || printf 'v 0 0 0\\n' >"$2"; shift; done
         first = self.calls()
         self.assertEqual([line.split()[0] for line in first], ["bemprecomp", "bemrecode"])
         self.assertIn("--codec haar --compression-ratio 8", first[1])
+        self.assertIn("--discretisation collocation", first[0])
         self.workspace.archive("bumpy-cube-haar-8")
         self.assertEqual(self.calls(), [])
         self.workspace.scheme = "radau2"  # an input of the uncompressed archive, and so of both
         self.workspace.archive("bumpy-cube-haar-8")
         self.assertEqual(len(self.calls()), 2)
+        self.workspace.discretisation = "galerkin"  # another one
+        self.workspace.archive("bumpy-cube-haar-8")
+        self.assertIn("--discretisation galerkin", self.calls()[0])
 
     def test_a_program_that_fails_ends_the_run(self):
         (self.folder / "bemprecomp").write_text("#!/bin/sh\nexit 6\n")
@@ -185,7 +189,8 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         for name in SCENES:
             self.assertIn(name, done.stdout)
-        for wrong in (["fig7"], ["--threads", "0"], ["--small", "--update-docs"]):
+        for wrong in (["fig7"], ["--threads", "0"], ["--small", "--update-docs"],
+                      ["--discretisation", "galerkin", "--update-docs"], ["--discretisation", "finite-elements"]):
             self.assertEqual(self.run_script(*wrong).returncode, 2, wrong)
 
     def test_without_the_programs_it_says_so(self):

@@ -135,6 +135,7 @@ class Tables(unittest.TestCase):
         self.assertEqual(Setting(2, 40).key(), "mesh 2 40 steps radau2")
         self.assertEqual(Setting(2, 40, "bdf1", codec_tol=1e-2, history=8).key(),
                          "mesh 2 40 steps bdf1 codec_tol 0.01 history 8")
+        self.assertEqual(Setting(2, 40, discretisation="galerkin").key(), "mesh 2 40 steps radau2 discretisation galerkin")
         for name, problem in PROBLEMS.items():
             settings = problem.plan.settings(SCHEMES)
             self.assertEqual(len({s.key() for s in settings}), len(settings), name)

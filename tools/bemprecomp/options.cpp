@@ -42,17 +42,17 @@ void add_matrix_options(CLI::App& app, Typed& t) {
          "--scheme", o.scheme,
          "radau2, radau3, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2; --model static: bdf1)")
       ->type_name("NAME");
-  app.add_option(
-         "--discretisation", o.method,
-         "in space: collocation, the paper's, or galerkin, which neither stiffens bodies nor "
-         "lets motions grow (" +
-             o.method + ")")
+  app.add_option("--discretisation", o.method,
+                 "in space: galerkin, which neither stiffens bodies nor lets motions grow, or "
+                 "collocation, the paper's (" +
+                     o.method + ")")
       ->type_name("NAME");
   app.add_flag("--measure-growth", o.measure_growth,
-               "with galerkin, too, measure how much motions of the free body grow per step");
+               "with galerkin, too, measure how much motions of the free body grow per step "
+               "(collocation always does)");
   app.add_option("--window", t.window,
-                 "factor 0 < q <= 1 on the weights per lag, 1 for none; auto: the weakest that "
-                 "makes the measured growth <= 1 (auto)")
+                 "factor 0 < q <= 1 on the weights per lag, 1 for none; auto: 1, but the weakest "
+                 "that makes growth <= 1 where growth is measured (auto)")
       ->type_name("q");
   app.add_option(
          "--model", t.model,

@@ -253,7 +253,7 @@ TimeEstimate estimate_time(const Plan& plan) {
   constexpr double kIterations = 30;
   const double lags = static_cast<double>(d.history_length * d.scheme.lag_components().size());
   const double reads = 0.5 * (dense ? 1 : 1 + kIterations / lags);
-  if (lags > 0)
+  if (lags > 0 && plan.options.measure_growth)
     t.growth =
         (kGrowthSteps + d.history_length) * plan.stored * reads * seconds_per_byte_of_products();
   t.writing = plan.archive_bytes / kWriteSpeed;

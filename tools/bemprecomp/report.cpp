@@ -58,19 +58,19 @@ Json scheme_json(const Discretisation& d, double window) {
 }
 
 Json report_json(const ModelReport& r) {
-  return {{"lam", r.lam},
-          {"row_sum_residual", r.row_sum_residual},
-          {"rotation_residual", r.rotation_residual},
-          {"condition", r.condition},
-          {"growth", r.growth},
-          {"codec_errors",
-           {{"h", r.codec_errors.h},
-            {"g", r.codec_errors.g},
-            {"inverse", r.codec_errors.inverse},
-            {"traction_response", r.codec_errors.traction_response},
-            {"stiffness", r.codec_errors.stiffness},
-            {"initial_h", r.codec_errors.initial_h},
-            {"initial_g", r.codec_errors.initial_g}}}};
+  Json json = {{"lam", r.lam},
+               {"row_sum_residual", r.row_sum_residual},
+               {"rotation_residual", r.rotation_residual},
+               {"condition", r.condition}};
+  if (r.growth > 0) json["growth"] = r.growth;
+  json["codec_errors"] = {{"h", r.codec_errors.h},
+                          {"g", r.codec_errors.g},
+                          {"inverse", r.codec_errors.inverse},
+                          {"traction_response", r.codec_errors.traction_response},
+                          {"stiffness", r.codec_errors.stiffness},
+                          {"initial_h", r.codec_errors.initial_h},
+                          {"initial_g", r.codec_errors.initial_g}};
+  return json;
 }
 
 /// The shortest time steps with a history of some lengths: "n_max 4: 0.012 s, ...".
@@ -260,8 +260,9 @@ void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
              " at most (the machine has ", bytes_text(static_cast<double>(physical_memory())), ")");
   table.line("time", "about ", seconds_text(time.total()), " on ", thread_count(),
              " threads (assembly ", seconds_text(time.assembly), ", inversion ",
-             seconds_text(time.inversion), ", growth factor ", seconds_text(time.growth),
-             ", writing ", seconds_text(time.writing), ")");
+             seconds_text(time.inversion),
+             time.growth > 0 ? ", growth factor " + seconds_text(time.growth) : "", ", writing ",
+             seconds_text(time.writing), ")");
 }
 
 Json stats_json(const BodyModel& model, const std::string& archive, const PhaseTimer& timer,

@@ -13,8 +13,8 @@ namespace bem {
 namespace {
 
 /// When what the scene does to a body stops changing. Nothing for one that need not be watched: it
-/// is free, and bemprecomp has measured its growth, or a joint brings it the motion of another
-/// body.
+/// is free, so that bemprecomp has measured its growth or knows that there is none, or a joint
+/// brings it the motion of another body.
 std::optional<double> quiet_from(const Scene& scene, std::size_t body) {
   const BodySpec& spec = scene.bodies[body];
   if (spec.fixed.empty() && spec.handles.empty()) return std::nullopt;
@@ -64,8 +64,11 @@ std::vector<std::string> GrowingVibrations::warnings(const Simulation& simulatio
                   rounded_text(v->frequency / dt, 4) + " Hz, more by " +
                   rounded_text(100 * (std::pow(v->growth, 1 / v->frequency) - 1), 2) +
                   " % from period to period though nothing drives it, an error of the mesh: make "
-                  "its archive from a finer one, with --window " +
-                  rounded_text(model.window / v->growth, 6) +
+                  "its archive from a finer one, " +
+                  (model.discretisation.method == SpatialMethod::galerkin
+                       ? ""
+                       : "with --discretisation galerkin, ") +
+                  "with --window " + rounded_text(model.window / v->growth, 6) +
                   ", or with --damping kelvin_voigt:" + rounded_text(damping, 2));
   }
   return out;

@@ -113,9 +113,11 @@ void add_warnings(Plan& plan) {
   for (const PlannedBody& body : plan.bodies) {
     const double growth = body.archive->report().growth * body.archive->window();
     if (growth > kNoticeableGrowth && seen.insert(body.archive).second)
-      plan.warnings.push_back(where(body.spec->archive.location) +
-                              ": motions of this archive grow by a factor of " + to_text(growth) +
-                              " per step; make it again with --window auto or a larger --dt");
+      plan.warnings.push_back(
+          where(body.spec->archive.location) + ": motions of this archive grow by a factor of " +
+          to_text(growth) +
+          " per step; make it again with --discretisation galerkin, --window auto "
+          "or a larger --dt");
     if (body.spec->has_centrifugal() && !body.spec->angular_velocity.isZero(0) &&
         body.archive->kind() != ModelKind::rigid && !body.archive->has_centrifugal() &&
         old.insert(body.archive).second)

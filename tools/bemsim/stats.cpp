@@ -117,11 +117,11 @@ Json body_json(const PlannedBody& planned, const Body& body, const Json& coarsen
            {"vertices", model.geometry.input.vertices.size()},
            {"prescribed_vertices", planned.fixed + planned.handled},
            {"loads", body.loads()},
-           {"window", model.window},
-           {"growth", model.report.growth},
-           {"linear_momentum", vector_json(body.linear_momentum())},
-           {"angular_momentum", vector_json(body.frame().angular_momentum())},
-           {"validity", validity_json(body)}};
+           {"window", model.window}};
+  if (model.report.growth > 0) out["growth"] = model.report.growth;
+  out["linear_momentum"] = vector_json(body.linear_momentum());
+  out["angular_momentum"] = vector_json(body.frame().angular_momentum());
+  out["validity"] = validity_json(body);
   if (!coarseness.is_null()) out["coarseness"] = coarseness;
   if (!growing.is_null()) out["growing_vibration"] = growing;
   return out;
