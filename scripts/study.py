@@ -15,6 +15,7 @@ there are used and nothing is installed or built.
 Exit codes: 0 ok, 1 a program failed, 2 usage.
 """
 import argparse
+import dataclasses
 import json
 import os
 import pathlib
@@ -38,6 +39,8 @@ def arguments():
     parser.add_argument("--small", action="store_true", help="a smoke test on coarse meshes")
     parser.add_argument("--out", type=pathlib.Path, help="output folder (out/study, with --small out/study/small)")
     parser.add_argument("--schemes", default=",".join(SCHEMES), help="comma-separated (%(default)s)")
+    parser.add_argument("--discretisation", default="collocation", choices=["collocation", "galerkin"],
+                        help="of all runs; the tables show collocation, NAME.json has both (%(default)s)")
     parser.add_argument("--force", action="store_true", help="do again what is there")
     parser.add_argument("--update-docs", action="store_true", help="tables and plots into docs")
     parser.add_argument("--reference", action="store_true", help="with calculix: prints what closed_forms.Beam has of it, no study")
@@ -59,7 +62,7 @@ def run(options):
         for name in names:
             problem = PROBLEMS[name]
             settings = problem.small if options.small else problem.plan.settings(options.schemes.split(","))
-            runner.problem(name, settings)
+            runner.problem(name, [dataclasses.replace(s, discretisation=options.discretisation) for s in settings])
     if "calculix" in options.problems:
         calculix.CalculiX(options.out, options.force).study(calculix.SMALL if options.small else calculix.SETTINGS)
 

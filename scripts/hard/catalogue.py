@@ -52,9 +52,10 @@ class Case:
     group: str  # of the tests
 
 
+# Nothing takes from slow vibrations, so that two of them may meet later at a little more than before.
+STEADY = {"moved": (">=", 1e-6), "later/early": ("<=", 1.05)}
 # A free body that was pushed: bounded, moving at all, momentum exact.
-FREE = {"moved": (">=", 1e-6), "displacement": ("<=", 0.01), "later/early": ("<=", 1.0),
-        "momentum defect": ("<=", 1e-14)}
+FREE = {**STEADY, "displacement": ("<=", 0.01), "momentum defect": ("<=", 1e-14)}
 TOUCHING = {"penetration": ("<=", 2e-5), "energy gain": ("<=", 1e-4), "not met": ("<=", 0)}
 
 
@@ -83,12 +84,19 @@ def nu(value):
     return {"poisson_ratio": value}
 
 
-def refused(name, body, says=("use a larger --dt",), **more):
-    return Trial(name, {"body": body}, ends="refused", says=says, **more)
+def refused(name, body, **more):
+    """With the paper's discretisation, which the message names the default against."""
+    return Trial(f"{name}-collocation", {"body": dataclasses.replace(body, options=("--discretisation", "collocation"))},
+                 ends="refused", says=("use --discretisation galerkin or a larger --dt",), **more)
 
 
 # Their shear waves go a fifth to a half of an edge in a step.
 REFUSED_PLATES = ("20-0.48-25", "20-0.4999-10", "20-0.4999-25", "50-0.4999-25")
+
+
+def bending_period(ratio, lam):
+    """Of a free square plate, about [steps]."""
+    return lam * ratio / 1.5
 
 
 def plates():
@@ -98,25 +106,25 @@ def plates():
             for lam in (3.5, 10, 25):
                 body = Body(("box", (1, 1, 1 / ratio), (5, 5, 1)), changes=nu(poisson), lam=lam)
                 name = f"{ratio}-{poisson}-{lam}"
+                steps = round(5 * bending_period(ratio, lam))  # a quarter of them is more than one period
+                trials.append(pushed(name, body, steps=max(2000, steps), short_steps=steps,
+                                     short=name in ("20-0.3-3.5", "20-0.4999-3.5"),
+                                     bounds={"displacement": ("<=", 0.01 if ratio == 20 else 0.1)}))
                 if name in REFUSED_PLATES:
-                    trials.append(refused(name, body))
-                else:
-                    trials.append(pushed(name, body, steps=2000, short_steps=200,
-                                         short=(ratio, lam) in ((20, 3.5), (50, 10)) and (ratio, poisson) != (20, 0.48)))
+                    trials.append(refused(name, body, short=name == "20-0.4999-10"))
     return tuple(trials)
 
 
 def held_plates():
+    """A plate that is held has a fifth of the frequency of a free one."""
     trials = []
     for ratio in (20, 50):
         for poisson in (0.3, 0.4999):
-            body = Body(("box", (1, 1, 1 / ratio), (5, 5, 1)), changes=nu(poisson), lam=10)
-            if (ratio, poisson) == (20, 0.4999):
-                trials.append(refused(f"{ratio}-{poisson}", body, short=True))
-                body = dataclasses.replace(body, lam=3.5)
-            trials.append(Trial(f"{ratio}-{poisson}-{body.lam:g}", {"body": body}, "held", PUSH, steps=2000,
-                                short_steps=200, short=(ratio, poisson) == (20, 0.3),
-                                bounds={"moved": (">=", 1e-6), "later/early": ("<=", 1.0)}))
+            for lam in (3.5, 10):
+                body = Body(("box", (1, 1, 1 / ratio), (5, 5, 1)), changes=nu(poisson), lam=lam)
+                steps = round(25 * bending_period(ratio, lam))
+                trials.append(Trial(f"{ratio}-{poisson}-{lam:g}", {"body": body}, "held", PUSH, steps=max(2000, steps),
+                                    short_steps=steps, short=(ratio, poisson, lam) == (20, 0.3, 3.5), bounds=STEADY))
     return tuple(trials)
 
 
@@ -145,8 +153,7 @@ def corners():
         for poisson in (0.3, 0.49):
             body = Body((name,), changes=nu(poisson), lam=6)
             if (name, poisson) == ("cross", 0.49):
-                trials.append(refused("cross-0.49-fine-steps", body, short=True))
-                body = dataclasses.replace(body, lam=3)
+                trials.append(refused("cross-0.49-free", body, short=True))
             trials.append(pushed(f"{name}-{poisson}-free", body, steps=1000, short_steps=200, short=poisson == 0.49))
         trials.append(dropped(f"{name}-falls", Body((name,), lam=6), steps=400, short_steps=80, short=name == "cross"))
     return tuple(trials)
@@ -159,9 +166,9 @@ def poisson_ratios():
         for poisson in (0, 0.49, 0.4999, 0.5):
             trials.append(pushed(f"{name}-{poisson}", Body(mesh, changes=nu(poisson), lam=3), steps=2000,
                                  short_steps=200, short=True))
-    trials.append(Trial("cube-0.5-fine-steps", {"body": Body(("box", (1, 1, 1), (2, 2, 2)), changes=nu(0.5), lam=30)},
-                        ends="refused", says=("use a larger --dt",), short=True))
-    return tuple(trials)
+    fine = Body(("box", (1, 1, 1), (2, 2, 2)), changes=nu(0.5), lam=30)
+    return (*trials, pushed("cube-0.5-fine-steps", fine, steps=2000, short_steps=400, short=True),
+            refused("cube-0.5-fine-steps", fine, short=True))
 
 
 def time_steps():
@@ -175,8 +182,9 @@ def time_steps():
     return tuple(trials)
 
 
-EXACT = ("--codec", "none", "--precision", "float64", "--window", 0.98, "--quadrature-tol", 1e-10)
-BLOCK = ("box", (1, 0.8, 0.6), (3, 2, 2))
+EXACT = ("--codec", "none", "--precision", "float64", "--window", 0.98)
+FINE = ("--quadrature-tol", 1e-10)  # a turned mesh has its rules elsewhere
+BLOCK, COARSE_BLOCK = (("box", (1, 0.8, 0.6), cells) for cells in ((3, 2, 2), (2, 1, 1)))
 
 
 def scaled(length):
@@ -222,19 +230,19 @@ def renumbered_mesh(order):
 
 
 def motions():
-    block = getattr(meshes, BLOCK[0])(*BLOCK[1:])
-    count = len(block[0])
-    pulled = np.flatnonzero(block[0][:, 0] > 0.05)
     turn = figures.rotation({"axis": [3, 1, 2], "angle_deg": 77})
-    order = np.random.default_rng(1).permutation(count)
-    place = np.argsort(order)
-    ways = {"plain": (np.eye(3), np.arange(count), ()), "turned": (turn, np.arange(count), (turned_mesh(turn),)),
-            "renumbered": (np.eye(3), order, (renumbered_mesh(order),)),
-            "both": (turn, order, (turned_mesh(turn), renumbered_mesh(order)))}
     trials = []
-    for codec, options, bound in (("exact", EXACT, 1e-9), ("lowrank", (), 1e-3)):
+    for codec, mesh, options, bound in (("exact", COARSE_BLOCK, EXACT + FINE, 1e-9), ("lowrank", BLOCK, (), 1e-3)):
+        block = getattr(meshes, mesh[0])(*mesh[1:])
+        count = len(block[0])
+        pulled = np.flatnonzero(block[0][:, 0] > 0.05)
+        order = np.random.default_rng(1).permutation(count)
+        place = np.argsort(order)
+        ways = {"plain": (np.eye(3), np.arange(count), ()), "turned": (turn, np.arange(count), (turned_mesh(turn),)),
+                "renumbered": (np.eye(3), order, (renumbered_mesh(order),)),
+                "both": (turn, order, (turned_mesh(turn), renumbered_mesh(order)))}
         for way, (r, o, moved) in ways.items():
-            body = Body(BLOCK, dt=0.005, options=options, moved=moved)
+            body = Body(mesh, dt=0.005, options=options, moved=moved)
             chosen = pulled if o is not order else place[pulled]
             changes = {"/bodies/0/tractions/0/select": {"vertices": sorted(int(v) for v in chosen)},
                        "/bodies/0/tractions/0/traction": list(r @ [1000, 300, 200]),
@@ -347,22 +355,21 @@ def long_runs():
 
 CASES = {
     "plates": Case("free plates of 1 m, 20:1 and 50:1, one element thick and 4 to 10 thicknesses long, ν 0.3, 0.48, "
-                   "0.4999, pushed: the motion decays; time steps too short for sharp edges with ν near 0.5 are "
-                   "refused with the cure", plates(), "shapes"),
-    "held-plates": Case("the same plates, held at one edge and pushed: the motion decays or is refused with the cure",
-                        held_plates(), "shapes"),
+                   "0.4999, pushed: the motion does not grow; with collocation time steps too short for sharp edges with "
+                   "ν near 0.5 are refused with the cure", plates(), "shapes"),
+    "held-plates": Case("the same plates, held at one edge and pushed: the motion does not grow", held_plates(), "shapes"),
     "odd-meshes": Case("cubes with needles (aspect 2000, 0.03°), slivers (10,000, 0.01°), triangles beside others a "
                        "hundred times as long, triangles graded 256 to 1; pushed, and dropped askew: a warning of thin "
-                       "triangles, the motion decays, nothing penetrates", odd_meshes(), "shapes"),
-    "gaps": Case("a C of 1 m whose arms are 10 mm or 1 mm apart: the motion decays; pressed together they touch and do "
+                       "triangles, the motion does not grow, nothing penetrates", odd_meshes(), "shapes"),
+    "gaps": Case("a C of 1 m whose arms are 10 mm or 1 mm apart: the motion does not grow; pressed together they touch and do "
                  "not pass through each other", gaps(), "shapes"),
-    "re-entrant": Case("an L and three crossed bars, pushed and dropped: as above; too short a time step for ν 0.49 is "
-                       "refused with the cure", corners(), "shapes"),
+    "re-entrant": Case("an L and three crossed bars, pushed and dropped: as above; with collocation too short a time step for "
+                       "ν 0.49 is refused with the cure", corners(), "shapes"),
     "minimal": Case("a cube of 8 vertices and a tetrahedron, pushed and dropped: as above", minimal(), "shapes"),
-    "poisson": Case("a ball and a cube with ν 0, 0.49, 0.4999, 0.5: the motion decays; much too short a time step on "
-                    "the cube with 0.5 is refused with the cure", poisson_ratios(), "materials"),
-    "time-steps": Case("an icosahedron, histories of 2 to 100 steps: the motion decays", time_steps(), "materials"),
-    "long": Case("100,000 steps of a tumbling ball and beam after a push: the motion decays, momentum is exact",
+    "poisson": Case("a ball and a cube with ν 0, 0.49, 0.4999, 0.5: the motion does not grow; with collocation a time step "
+                    "much too short for the cube with 0.5 is refused with the cure", poisson_ratios(), "materials"),
+    "time-steps": Case("an icosahedron, histories of 2 to 100 steps: the motion does not grow", time_steps(), "materials"),
+    "long": Case("100,000 steps of a tumbling ball and beam after a push: the motion does not grow, momentum is exact",
                  long_runs(), "materials"),
     "units": Case("a block in metres, millimetres and kilometres, pushed and dropped: the same but for rounding "
                   "(lowrank: its tolerance)", units(), "invariance"),
