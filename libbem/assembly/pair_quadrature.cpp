@@ -10,7 +10,7 @@
 namespace bem {
 namespace {
 
-constexpr int kDeepest = 12;  // times that a triangle is split
+constexpr int kDeepest = 24;  // times that triangles of a pair are halved
 constexpr double kObtuse = 110 * kPi / 180;
 constexpr int kMoreForObtuse = 3;  // Gauss points per direction
 /// Cosines of the angle of the normals at a shared edge from which on it counts as sharp: for the
@@ -44,16 +44,23 @@ struct Cell {
   Vec3 place[3];
   double longest, part;  ///< edge [m], of the triangle's area
 
-  Cell child(int index) const {
-    Cell c;
-    c.longest = 0.5 * longest;
-    c.part = 0.25 * part;
-    for (int i = 0; i < 3; ++i) {
-      // the middle child has the middles of the edges, the others a corner and two of them
-      const int from = index == 3 ? i : index, to = index == 3 ? (i + 1) % 3 : i;
-      for (int a = 0; a < 3; ++a) c.corner[i][a] = 0.5 * (corner[from][a] + corner[to][a]);
-      c.place[i] = 0.5 * (place[from] + place[to]);
-    }
+  int longest_edge() const {  ///< from which corner on
+    int edge = 0;
+    for (int i = 1; i < 3; ++i)
+      if (length(i) > length(edge)) edge = i;
+    return edge;
+  }
+  double length(int edge) const { return (place[(edge + 1) % 3] - place[edge]).norm(); }
+
+  /// One half: the longest edge is cut, so that slivers become triangles instead of more slivers.
+  Cell half(int index) const {
+    const int edge = longest_edge(), first = edge, second = (edge + 1) % 3;
+    Cell c = *this;
+    const int moved = index == 0 ? second : first;
+    for (int a = 0; a < 3; ++a) c.corner[moved][a] = 0.5 * (corner[first][a] + corner[second][a]);
+    c.place[moved] = 0.5 * (place[first] + place[second]);
+    c.longest = c.length(c.longest_edge());
+    c.part = 0.5 * part;
     return c;
   }
 };
@@ -221,9 +228,9 @@ void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
     const int rule_x = rule_of(task.x), rule_y = rule_of(task.y);
     if (rule_x < 0 || rule_y < 0) {
       const bool split_x = rule_y >= 0 || (rule_x < 0 && task.x.longest >= task.y.longest);
-      for (int i = 0; i < 4; ++i)
-        stack.push_back({split_x ? task.x.child(i) : task.x, split_x ? task.y : task.y.child(i),
-                         task.depth + 1});
+      for (int i = 0; i < 2; ++i)
+        stack.push_back(
+            {split_x ? task.x.half(i) : task.x, split_x ? task.y : task.y.half(i), task.depth + 1});
       continue;
     }
     for (const PairPoint& own : products_[rule_x][rule_y]) {

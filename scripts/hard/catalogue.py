@@ -182,8 +182,7 @@ def time_steps():
     return tuple(trials)
 
 
-EXACT = ("--codec", "none", "--precision", "float64", "--window", 0.98)
-FINE = ("--quadrature-tol", 1e-10)  # a turned mesh has its rules elsewhere
+EXACT = ("--codec", "none", "--precision", "float64", "--window", 0.98, "--quadrature-tol", 1e-10)
 BLOCK, COARSE_BLOCK = (("box", (1, 0.8, 0.6), cells) for cells in ((3, 2, 2), (2, 1, 1)))
 
 
@@ -200,10 +199,10 @@ def scaled(length):
 
 def units():
     trials = []
-    for codec, options, bound in (("exact", EXACT, 1e-9), ("lowrank", (), 1e-3)):
+    for codec, mesh, options, bound in (("exact", COARSE_BLOCK, EXACT, 1e-9), ("lowrank", BLOCK, (), 1e-3)):
         for name, length in (("metres", 1), ("millimetres", 1e-3), ("kilometres", 1e3)):
             shear, push_changes, drop_changes = scaled(length)
-            body = Body(BLOCK, changes=shear, dt=0.005, options=options, scale=length)
+            body = Body(mesh, changes=shear, dt=0.005, options=options, scale=length)
             short = {"short": codec == "exact", "short_steps": 100}
             for kind, make, changes in (("free", pushed, push_changes), ("falls", dropped, drop_changes)):
                 allowed = max(bound, 1e-2) if (kind, codec) == ("falls", "lowrank") else bound  # tumbling makes more of it
@@ -232,7 +231,8 @@ def renumbered_mesh(order):
 def motions():
     turn = figures.rotation({"axis": [3, 1, 2], "angle_deg": 77})
     trials = []
-    for codec, mesh, options, bound in (("exact", COARSE_BLOCK, EXACT + FINE, 1e-9), ("lowrank", BLOCK, (), 1e-3)):
+    # points on triangles that touch depend on the numbering of their corners
+    for codec, mesh, options, bound in (("exact", COARSE_BLOCK, EXACT, 1e-7), ("lowrank", BLOCK, (), 1e-3)):
         block = getattr(meshes, mesh[0])(*mesh[1:])
         count = len(block[0])
         pulled = np.flatnonzero(block[0][:, 0] > 0.05)
@@ -258,7 +258,7 @@ def motions():
                 falls["/contact/tolerance"] = 1e-12
             for kind, make, change in (("free", pushed, changes), ("falls", dropped, falls)):
                 # contacts are solved for in other axes and orders; edges that land make more of what that leaves
-                allowed = {"exact": 1e-6 if r is turn else bound, "lowrank": 1e-2}[codec] if kind == "falls" else bound
+                allowed = {"exact": 1e-5, "lowrank": 1e-2}[codec] if kind == "falls" else bound
                 same = {} if way == "plain" else {"bounds": {"positions differ": ("<=", allowed)}}
                 trials.append(make(f"{kind}-{way}-{codec}", body, changes=change, steps=300, **short, **same, image_of=None
                                    if way == "plain" else (f"{kind}-plain-{codec}", Image(1, r, o))))
@@ -327,7 +327,7 @@ def rests():
     plate = ("box", (1, 0.05, 1), (4, 1, 4))
     lie = {"/bodies/0/position": [0, 0.025, 0], "/bodies/0/rotation": {"axis": [0, 1, 0], "angle_deg": 20}}
     bounds = {"drift": ("<=", 1e-5), "end speed": ("<=", 1e-5)}
-    soon = {"end speed": ("<=", 1e-3)}
+    soon = {"end speed": ("<=", 1e-3), "drift": ("<=", 1e-4)}  # they still vibrate
     trials = []
     for name, mesh, changes in (("cube", cube, {**still, **at}), ("cube-on-slope", cube, {**slope, **at}),
                                 ("plate", plate, {**still, **lie})):
@@ -374,7 +374,7 @@ CASES = {
     "units": Case("a block in metres, millimetres and kilometres, pushed and dropped: the same but for rounding "
                   "(lowrank: its tolerance)", units(), "invariance"),
     "motions": Case("the block in a turned world and with other numbers of vertices and triangles: the same but for "
-                    "rounding; falling in a turned world: but for the contact tolerance", motions(), "invariance"),
+                    "the quadrature; falling: but for what tumbling makes of it", motions(), "invariance"),
     "stack": Case("a cube on one a thousandth of its mass, elastic and rigid: they stay", stacks(), "contact"),
     "impact": Case("balls at the speed of shear waves and ten times that, up to thirty of their sizes per step, at a half "
                    "space, a thin plate and a ball: none gets through, or a warning names the cure", impacts(), "contact"),

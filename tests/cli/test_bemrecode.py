@@ -24,12 +24,14 @@ class Recode(CliCase):
             self.recode("dense.bem", "-o", "recoded.bem", *options, "--force")
             self.assertEqual(self.run_tool("--verify", "recoded.bem").stdout, "recoded.bem: intact\n")
             self.precompute(*options, "--window", "1", "--force", output="direct.bem")
+            if "haar" in options:  # of the same numbers in single precision
+                self.assertEqual(self.run_tool("--diff", "direct.bem", "recoded.bem").stdout, "identical\n")
+                continue
             lines = self.run_tool("--diff", "direct.bem", "recoded.bem", code=1).stdout.splitlines()
             different = [line for line in lines if line.startswith("matrices/") and "balance" not in line]
-            if "haar" in options:  # of the same numbers in single precision
-                self.assertEqual(different, [])
-            else:
-                self.assertLess(max(float(line.split("relative error ")[1]) for line in different), 3e-3)
+            self.assertEqual({line.split("/")[1] for line in different},
+                             {"h", "g", "stiffness", "inverse", "traction_response"})
+            self.assertLess(max(float(line.split("relative error ")[1]) for line in different), 3e-3)
             self.assertFalse([line for line in lines if line.startswith("provenance")], lines)
 
     def test_archives_of_collocation_have_no_stiffness(self):
