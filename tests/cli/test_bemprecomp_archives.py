@@ -18,10 +18,10 @@ class Archives(CliCase):
         return (self.folder / name).read_bytes()
 
     def test_same_bytes_for_any_thread_count(self):
-        self.sphere(2)
-        for codec in ["lowrank", "haar"]:
+        for codec, subdivisions in [("lowrank", 2), ("haar", 1)]:
+            self.sphere(subdivisions)
             for threads in [1, 2]:
-                self.run_tool("sphere.obj", "rubber.json", "--dt", "0.004", "-o", f"{threads}.bem",
+                self.run_tool("sphere.obj", "rubber.json", "--dt", "0.01", "-o", f"{threads}.bem",
                               "--threads", threads, "--codec", codec, "-q", "--force")
             self.assertGreater(len(self.bytes_of("1.bem")), 200000)
             self.assertTrue(self.bytes_of("1.bem") == self.bytes_of("2.bem"), codec)

@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 
-from simulation_case import DT, GRAVITY, SimulationCase, falling_ball, held_ball, models, program, read_obj, rotation
+from simulation_case import (DT, GRAVITY, SimulationCase, falling_ball, held_ball, make_model, models, program,
+                             read_obj, rotation)
 
 
 class Trajectories(SimulationCase):
@@ -104,6 +105,7 @@ class Trajectories(SimulationCase):
             np.testing.assert_allclose(values, np.full(values.shape, [30, 0, -40]), rtol=1e-9, atol=1e-9)
 
     def test_same_bytes_for_any_number_of_threads(self):
+        make_model("star", "star", 2)
         self.scene["bodies"] = [{**held_ball(), "archive": str(models / "star.bem")},
                                 {**falling_ball(), "angular_velocity": [3, 1, 0]}]
         self.scene["output"] = {"fields": ["positions", "tractions"]}
