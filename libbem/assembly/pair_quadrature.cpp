@@ -13,6 +13,8 @@ namespace {
 constexpr int kDeepest = 24;  // times that triangles of a pair are halved
 constexpr double kObtuse = 110 * kPi / 180;
 constexpr int kMoreForObtuse = 3;  // Gauss points per direction
+constexpr double kSlender = 10;    // longest edge over height
+constexpr int kMoreForSlender = 4;
 /// Cosines of the angle of the normals at a shared edge from which on it counts as sharp: for the
 /// dynamic parts, whose kernels are not symmetric about it, and for the static ones.
 constexpr double kFolded = 0.8, kSharp = -0.2;
@@ -21,7 +23,7 @@ constexpr int kStaticRadial = 3, kDynamicRadial = 4;  // exact for static kernel
 
 /// Gauss points per direction of touching pairs for an error relative to the largest entry.
 int static_order(double tolerance) {
-  return std::clamp(static_cast<int>(std::ceil(1 - std::log10(tolerance))), 4, 14);
+  return std::clamp(static_cast<int>(std::ceil(3 - std::log10(tolerance))), 4, 16);
 }
 int dynamic_order(double tolerance) {
   return std::clamp(static_cast<int>(std::ceil(1 - 0.5 * std::log10(tolerance))), 3, 12);
@@ -117,16 +119,28 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
   for (int x = 0; x < kTriangleRuleCount; ++x)
     for (int y = 0; y < kTriangleRuleCount; ++y)
       products_[x][y] = product_rule(triangle_rules()[x], triangle_rules()[y]);
+  make_touching_rules();
+}
+
+/// Those that pairs of this mesh need.
+void PairQuadrature::make_touching_rules() {
   const int radial =
       kDynamicRadial + std::min(kMostForWaves, static_cast<int>(0.4 * longest_wave()));
-  for (const Adjacency adjacency : {Adjacency::vertex, Adjacency::edge, Adjacency::identical})
-    for (const int obtuse : {0, kMoreForObtuse})
-      for (const bool edge : {false, true}) {
-        const int n = static_order_ + obtuse + edge * kStaticForEdges,
-                  m = dynamic_order_ + obtuse + edge * kDynamicForEdges;
-        static_rules_[{adjacency, n}] = touching_rule(adjacency, n, kStaticRadial);
-        dynamic_rules_[{adjacency, m}] = touching_rule(adjacency, m, radial);
-      }
+  const auto need = [&](int tx, int ty, Adjacency adjacency) {
+    for (const KernelPart part : {KernelPart::static_part, KernelPart::dynamic_part}) {
+      const bool is_static = part == KernelPart::static_part;
+      const int order = touching_order(tx, ty, adjacency, part);
+      std::vector<PairPoint>& rule =
+          (is_static ? static_rules_ : dynamic_rules_)[{adjacency, order}];
+      if (rule.empty()) rule = touching_rule(adjacency, order, is_static ? kStaticRadial : radial);
+    }
+  };
+  std::vector<std::vector<int>> fans(mesh_.vertices.size());
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    for (int v : mesh_.triangles[t]) fans[v].push_back(static_cast<int>(t));
+  for (const std::vector<int>& fan : fans)
+    for (int tx : fan)
+      for (int ty : fan) need(tx, ty, pair(tx, ty).adjacency);
 }
 
 bool PairQuadrature::midpoints_suffice(double distance, double longest_edge,
@@ -164,10 +178,15 @@ PairQuadrature::Pairing PairQuadrature::pair(int tx, int ty) const {
 int PairQuadrature::touching_order(int tx, int ty, Adjacency adjacency, KernelPart part) const {
   const bool is_static = part == KernelPart::static_part;
   int order = is_static ? static_order_ : dynamic_order_;
-  if (std::max(panels_[tx].widest_angle, panels_[ty].widest_angle) > kObtuse)
+  const Panel &x = panels_[tx], &y = panels_[ty];
+  const auto slenderness = [](const Panel& p) {
+    return p.longest_edge * p.longest_edge / (2 * p.area);
+  };
+  if (is_static && std::max(slenderness(x), slenderness(y)) > kSlender)
+    order += kMoreForSlender;
+  else if (std::max(x.widest_angle, y.widest_angle) > kObtuse)
     order += kMoreForObtuse;
-  if (adjacency == Adjacency::edge &&
-      panels_[tx].normal.dot(panels_[ty].normal) < (is_static ? kSharp : kFolded))
+  if (adjacency == Adjacency::edge && x.normal.dot(y.normal) < (is_static ? kSharp : kFolded))
     order += is_static ? kStaticForEdges : kDynamicForEdges;
   return order;
 }

@@ -91,6 +91,7 @@ class PairQuadrature {
                ? static_choice_.choose(distance / longest_edge, 0)
                : dynamic_choice_.choose(distance / longest_edge, wave_number_ * longest_edge);
   }
+  void make_touching_rules();
   double longest_wave() const;
   int touching_order(int tx, int ty, Adjacency adjacency, KernelPart part) const;
   void add_separated(int tx, int ty, KernelPart part, std::vector<PairPoint>& out) const;
