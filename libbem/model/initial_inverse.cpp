@@ -241,23 +241,24 @@ void InitialMatrix::set_rows(Eigen::Index first, const Eigen::MatrixXd& real_par
                              const Eigen::MatrixXd* imaginary_part) {
   constexpr Eigen::Index kTile = 64;
   const bool symmetric = form == MatrixForm::symmetric;
-  const Eigen::Index from = symmetric ? first : 0, columns = real_part.cols() - from,
-                     rows = real_part.rows();
-  parallel_for((columns + kTile - 1) / kTile, [&](std::size_t tile) {
+  const Eigen::Index from = symmetric ? first : 0, rows = real_part.rows();
+  const Eigen::Index tiles = (real_part.cols() - from + kTile - 1) / kTile;
+  parallel_for(tiles, [&](std::size_t tile) {
     const Eigen::Index begin = from + static_cast<Eigen::Index>(tile) * kTile;
-    const Eigen::Index count = std::min(kTile, real_part.cols() - begin);
-    const auto set = [&](const auto& part, auto to, auto mirrored) {
-      to = part.middleCols(begin, count);
-      if (symmetric) mirrored = part.middleCols(begin, count).transpose();
+    const Eigen::Index end = std::min(begin + kTile, real_part.cols());
+    // mirror images of what is beyond the rows' own columns
+    const Eigen::Index beyond = symmetric ? std::clamp(first + rows, begin, end) : end;
+    const auto set = [&](const Eigen::MatrixXd& part, auto&& matrix) {
+      matrix.block(first, begin, rows, end - begin) = part.middleCols(begin, end - begin);
+      matrix.block(beyond, first, end - beyond, rows) =
+          part.middleCols(beyond, end - beyond).transpose();
     };
-    if (!paired) {
-      set(real_part, real.block(first, begin, rows, count), real.block(begin, first, count, rows));
-      return;
+    if (paired) {
+      set(real_part, complex.real());
+      set(*imaginary_part, complex.imag());
+    } else {
+      set(real_part, real);
     }
-    auto to = complex.block(first, begin, rows, count);
-    auto mirrored = complex.block(begin, first, count, rows);
-    set(real_part, to.real(), mirrored.real());
-    set(*imaginary_part, to.imag(), mirrored.imag());
   });
 }
 

@@ -89,7 +89,9 @@ class Archives(CliCase):
             for matrix in ["h/lag_001", "g/lag_001", "inverse", "traction_response"]:
                 found = [line for line in lines if line.startswith(f"matrices/{matrix}/component_0")]
                 error = float(found[0].split("relative error ")[1])
-                self.assertLess(error, 3 * float(tolerance))
+                # that of G is relative to all lags with lag 0, which is several times larger than this one
+                most = 20 if codec == "lowrank" and matrix.startswith("g/") else 3
+                self.assertLess(error, most * float(tolerance))
                 self.assertGreater(error, 0.01 * float(tolerance))
 
         self.precompute("--codec", "none", "--window", "0.5", output="window.bem")
