@@ -13,8 +13,9 @@ namespace {
 constexpr int kDeepest = 24;  // times that triangles of a pair are halved
 constexpr double kObtuse = 110 * kPi / 180;
 constexpr int kMoreForObtuse = 3;  // Gauss points per direction
-constexpr double kSlender = 10;    // longest edge over height
-constexpr int kMoreForSlender = 4;
+/// Longest edge over height: from here on static parts need more points, whose errors grow with it.
+constexpr double kSlender = 4, kVerySlender = 8;
+constexpr int kMoreForSlender = 4, kMoreForVerySlender = 6;
 /// Cosines of the angle of the normals at a shared edge from which on it counts as sharp: for the
 /// dynamic parts, whose kernels are not symmetric about it, and for the static ones.
 constexpr double kFolded = 0.8, kSharp = -0.2;
@@ -23,7 +24,7 @@ constexpr int kStaticRadial = 3, kDynamicRadial = 4;  // exact for static kernel
 
 /// Gauss points per direction of touching pairs for an error relative to the largest entry.
 int static_order(double tolerance) {
-  return std::clamp(static_cast<int>(std::ceil(3 - std::log10(tolerance))), 4, 16);
+  return std::clamp(static_cast<int>(std::ceil(1 - std::log10(tolerance))), 4, 14);
 }
 int dynamic_order(double tolerance) {
   return std::clamp(static_cast<int>(std::ceil(1 - 0.5 * std::log10(tolerance))), 3, 12);
@@ -182,8 +183,9 @@ int PairQuadrature::touching_order(int tx, int ty, Adjacency adjacency, KernelPa
   const auto slenderness = [](const Panel& p) {
     return p.longest_edge * p.longest_edge / (2 * p.area);
   };
-  if (is_static && std::max(slenderness(x), slenderness(y)) > kSlender)
-    order += kMoreForSlender;
+  const double slender = std::max(slenderness(x), slenderness(y));
+  if (is_static && slender > kSlender)
+    order += slender > kVerySlender ? kMoreForVerySlender : kMoreForSlender;
   else if (std::max(x.widest_angle, y.widest_angle) > kObtuse)
     order += kMoreForObtuse;
   if (adjacency == Adjacency::edge && x.normal.dot(y.normal) < (is_static ? kSharp : kFolded))
