@@ -29,7 +29,7 @@ BODIES = {
     "icosphere 162": ("icosphere", "--subdivisions", 2),
 }
 RATIOS = (0.3, 0.48, 0.49, 0.5)
-LAMS = (2, 4.5, 10, 30)
+LAMS = (2.0, 4.5, 10.0, 30.0)
 SCHEMES = ("radau2", "radau3")
 METHODS = ("collocation", "galerkin")
 

@@ -22,7 +22,7 @@ class Archives(CliCase):
             self.sphere(subdivisions)
             for threads in [1, 2]:
                 self.run_tool("sphere.obj", "rubber.json", "--dt", "0.01", "-o", f"{threads}.bem",
-                              "--threads", threads, "--codec", codec, "-q", "--force")
+                              "--threads", threads, "--codec", codec, "--quadrature-tol", "1e-4", "-q", "--force")
             self.assertGreater(len(self.bytes_of("1.bem")), 200000)
             self.assertTrue(self.bytes_of("1.bem") == self.bytes_of("2.bem"), codec)
 

@@ -148,7 +148,7 @@ class Comparison {
   Norms matrix_norms(const std::string& path) const {
     const std::size_t n = a_.unknowns();
     const std::size_t tile = std::max<std::size_t>(1, (std::size_t(4) << 20) / n);
-    std::vector<double> x(tile * n), y(tile * n);
+    std::vector<double> x(std::min(tile, n) * n), y(std::min(tile, n) * n);
     Norms norms;
     for (std::size_t first = 0; first < n; first += tile) {
       const std::size_t rows = std::min(tile, n - first);
