@@ -204,13 +204,13 @@ double Archive::matrix_bytes(bool tractions) const {
 std::size_t Archive::history_coefficients() const {
   if (codec_ == Codec::none || discretisation_.history_length == 0) return 0;
   if (codec_ == Codec::haar) return unknowns();
-  std::size_t count = 0;
-  const bool symmetric = file_.has_attribute(lags_path("h"), kSymmetricAttribute);
-  for (const char* scales : {"/input_scales", "/output_scales"})
-    if (const Hdf5Dims dims = file_.dims(lags_path("h") + scales);
-        !dims.empty() && (symmetric || count == 0))
-      count += dims[0];
-  return count;
+  const std::string group = lags_path("h");
+  const auto count = [&](const char* scales) {
+    const Hdf5Dims dims = file_.dims(group + scales);
+    return dims.empty() ? 0 : dims[0];
+  };
+  const bool symmetric = file_.has_attribute(group, kSymmetricAttribute);
+  return count("/input_scales") + (symmetric ? count("/output_scales") : 0);
 }
 
 void Archive::check_matrices(const Progress& progress) const {

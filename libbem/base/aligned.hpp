@@ -15,6 +15,7 @@ void* allocate_aligned(std::size_t bytes);
 /// `bytes`: as allocated.
 void deallocate_aligned(void* memory, std::size_t bytes);
 
+/// Allocator of such memory.
 template <class T>
 struct AlignedAllocator {
   using value_type = T;

@@ -178,7 +178,7 @@ void LowRankBuilder::add_rows(const std::vector<MatrixView<float>>& matrices) {
   join(out.synthesis, &Encoded::synthesis);
   for (const Encoded& e : encoded) {
     out.blocks.push_back(e.block);
-    const bool mirrored = symmetric && e.block.column_begin >= e.block.row_end;
+    const bool mirrored = symmetric && e.block.is_right_of_diagonal();
     squared_error_ += mirrored ? 2 * e.squared_error : e.squared_error;
   }
   for (const MatrixView<float>& m : matrices)

@@ -129,11 +129,9 @@ class LowRankFamily::SlabProduct {
         slab_(family.slabs_[slab]),
         places_(family.places_[slab]),
         touched_(outputs, 0) {
-    const auto count = static_cast<Eigen::Index>(outputs);
-    sums_ = Eigen::MatrixXd::Zero(slab_.row_end - slab_.row_begin, count);
-    if (family.form_ == MatrixForm::symmetric)
-      sums_ =
-          Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(family.size_) - slab_.row_begin, count);
+    const int end =
+        family.form_ == MatrixForm::symmetric ? static_cast<int>(family.size_) : slab_.row_end;
+    sums_ = Eigen::MatrixXd::Zero(end - slab_.row_begin, static_cast<Eigen::Index>(outputs));
   }
 
   /// Begins the products with block b.
@@ -154,6 +152,11 @@ class LowRankFamily::SlabProduct {
   float* mirrored_input() {
     mirrored_input_.resize(block_->output_rank());
     return mirrored_input_.data();
+  }
+  /// Working memory for a vector in a basis of the block, zero.
+  float* unit(int rank) {
+    unit_.setZero(rank);
+    return unit_.data();
   }
   void multiply(int matrix, int output) {
     const Layers& layers = slab_.couplings[index_ * family_.count_ + matrix];
@@ -213,7 +216,7 @@ class LowRankFamily::SlabProduct {
   std::size_t index_ = 0;
   bool mirrored_ = false;
   FloatMatrix coupled_, mirrored_coupled_;
-  FloatVector input_, mirrored_input_, synthesised_;
+  FloatVector input_, mirrored_input_, unit_, synthesised_;
 };
 
 template <class F>
@@ -271,25 +274,30 @@ void LowRankFamily::multiply_add(const std::vector<SparseTerm>& unsorted,
     const Place& p = places_[s][b];
     for (const SparseTerm& t : terms) {
       if (slab.couplings[b * count_ + t.matrix].stored_rows() == 0) continue;
-      // coefficients of the entries of [begin, end); load: of a unit entry
-      const auto set = [&](float* to, int rank, int begin, int end, const auto& load,
+      const std::vector<int>& columns = *t.columns;
+      const auto entries_in = [&](int begin, int end) {
+        const auto first = std::lower_bound(columns.begin(), columns.end(), begin);
+        return std::pair(first, std::lower_bound(first, columns.end(), end));
+      };
+      const auto own = entries_in(block.column_begin, block.column_end);
+      const auto mirrored = entries_in(block.row_begin, block.row_end);
+      const bool met =
+          own.first != own.second || (product.is_mirrored() && mirrored.first != mirrored.second);
+      if (!met) continue;
+      // coefficients of entries, which count from `begin` on; load: of a unit entry
+      const auto set = [&](float* to, int rank, const auto& entries, int begin, const auto& load,
                            const float* scales) {
         std::fill_n(to, rank, 0.0F);
-        const std::vector<int>& columns = *t.columns;
-        const auto first = std::lower_bound(columns.begin(), columns.end(), begin);
-        const auto last = std::lower_bound(first, columns.end(), end);
-        FloatVector unit(rank);
-        for (auto c = first; c != last; ++c) {
+        for (auto c = entries.first; c != entries.second; ++c) {
           const auto value = static_cast<float>(t.factor * t.values[c - columns.begin()]);
           if (block.plain) {
             to[*c - begin] += value;
             continue;
           }
-          unit.setZero();
-          load(*c - begin, unit.data());
+          float* unit = product.unit(rank);
+          load(*c - begin, unit);
           for (int i = 0; i < rank; ++i) to[i] += value * unit[i] * scales[i];
         }
-        return first != last;
       };
       const auto of_column = [&](int j, float* out) {
         if (j < block.input_basis.stored_columns())
@@ -299,13 +307,12 @@ void LowRankFamily::multiply_add(const std::vector<SparseTerm>& unsorted,
         if (i < block.output_basis.stored_rows())
           load_layers_row(block.output_basis, slab.synthesis.data() + p.output_basis, i, out);
       };
-      bool met = set(product.input(), block.input_rank(), block.column_begin, block.column_end,
-                     of_column, slab.input_scales.data() + p.input_scales);
-      if (product.is_mirrored() &&
-          set(product.mirrored_input(), block.output_rank(), block.row_begin, block.row_end, of_row,
-              slab.output_scales.data() + p.output_scales))
-        met = true;
-      if (met) product.multiply(t.matrix, t.output);
+      set(product.input(), block.input_rank(), own, block.column_begin, of_column,
+          slab.input_scales.data() + p.input_scales);
+      if (product.is_mirrored())
+        set(product.mirrored_input(), block.output_rank(), mirrored, block.row_begin, of_row,
+            slab.output_scales.data() + p.output_scales);
+      product.multiply(t.matrix, t.output);
     }
   });
 }
@@ -347,7 +354,7 @@ void LowRankFamily::multiply_transposed_add(const std::vector<FamilyTerm>& unsor
                              static_cast<Eigen::Index>(terms.size()));
     for (std::size_t t = 0; t < terms.size(); ++t) {
       float* own = coefficients.col(static_cast<Eigen::Index>(t)).data();
-      analyse_columns(terms[t].input, 1, own);
+      analyse(terms[t].input, own);
       terms[t].coefficients = own;
     }
     multiply_add(terms, outputs);
@@ -459,6 +466,10 @@ Eigen::MatrixXd LowRankFamily::block(int matrix, const std::vector<int>& rows,
   };
   parallel_for(slabs_.size(), [&](std::size_t s) {  // slabs have different entries
     const LowRankSlab& slab = slabs_[s];
+    const auto meets = [&slab](const std::vector<int>& indices) {
+      return !positions_in(indices, slab.row_begin, slab.row_end).empty();
+    };
+    if (!meets(rows) && (form_ == MatrixForm::general || !meets(columns))) return;
     for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
       const LowRankBlock& k = slab.blocks[b];
       const auto take = [&](const std::vector<int>& of_rows, const std::vector<int>& of_columns) {

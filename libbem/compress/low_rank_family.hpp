@@ -21,6 +21,7 @@ struct LowRankBlock {
 
   int rows() const { return row_end - row_begin; }
   int columns() const { return column_end - column_begin; }
+  bool is_right_of_diagonal() const { return column_begin >= row_end; }
   int input_rank() const { return plain ? columns() : input_basis.stored_rows(); }
   int output_rank() const { return plain ? rows() : output_basis.stored_columns(); }
 };
@@ -86,7 +87,7 @@ class LowRankFamily : public MatrixFamily {
   };
   class SlabProduct;
   bool is_mirrored(const LowRankBlock& block) const {
-    return form_ == MatrixForm::symmetric && block.column_begin >= block.row_end;
+    return form_ == MatrixForm::symmetric && block.is_right_of_diagonal();
   }
   /// Calls add(product, slab, block) for all blocks, between begin() and end() of each, and adds
   /// the products to the outputs.
