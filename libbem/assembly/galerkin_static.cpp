@@ -65,41 +65,67 @@ class ProductShapes {
   std::vector<Shapes> tables_[kTriangleRuleCount][kTriangleRuleCount];
 };
 
-/// Sums over the points of a product of triangle rules.
-StaticSums product_sums(const PairQuadrature& quadrature, const StaticTraction& traction, int tx,
-                        int ty, const std::array<int, 2>& rules) {
+/// Sums over parts of two triangles that do not touch, by the shape functions of the parts and as a
+/// fraction of their areas.
+StaticSums product_sums(const Vec3& normal, const StaticTraction& traction,
+                        const PairQuadrature::CellProduct& cells) {
   static const ProductShapes shapes;
-  const TriangleRule &of_x = triangle_rules()[rules[0]], &of_y = triangle_rules()[rules[1]];
+  const TriangleRule &of_x = triangle_rules()[cells.rule_x], &of_y = triangle_rules()[cells.rule_y];
   Vec3 y[kMaxRulePoints];
-  for (int j = 0; j < of_y.size; ++j) y[j] = quadrature.position(ty, of_y.points[j].barycentric);
+  for (int j = 0; j < of_y.size; ++j) y[j] = cells.y.position(of_y.points[j].barycentric);
   StaticSums sums;
   StaticBatch batch;
   int done = 0;
   const auto flush = [&] {
-    batch.shapes = shapes.at(rules[0], rules[1], done);
-    accumulate_static(quadrature.normal(tx), traction, batch, sums);
+    batch.shapes = shapes.at(cells.rule_x, cells.rule_y, done);
+    accumulate_static(normal, traction, batch, sums);
     done += batch.size;
     batch.size = 0;
   };
   for (int i = 0; i < of_x.size; ++i) {
-    const Vec3 x = quadrature.position(tx, of_x.points[i].barycentric);
+    const Vec3 x = cells.x.position(of_x.points[i].barycentric);
     for (int j = 0; j < of_y.size; ++j) {
       batch.add(y[j] - x);
       if (batch.size == StaticBatch::kCapacity) flush();
     }
   }
   if (batch.size > 0) flush();
+  return sums;
+}
+
+/// Adds sums over parts of triangles to those by the shape functions of the triangles.
+void add_sums(const PairQuadrature::CellProduct& cells, const StaticSums& of_cells,
+              StaticSums& sums) {
+  using Products = Eigen::Matrix<double, kShapes, 3, Eigen::RowMajor>;
+  const double part = cells.x.part() * cells.y.part();
+  const Eigen::Matrix<double, kShapes, kShapes> x = part * cells.x.shapes();
+  const Mat3 y = cells.y.shapes().topLeftCorner<3, 3>();
+  for (int e = 0; e < StaticSums::kCount; ++e)
+    Eigen::Map<Products>(sums.values[e]) +=
+        (x * Eigen::Map<const Products>(of_cells.values[e])).lazyProduct(y.transpose());
+}
+
+/// The static sums over two triangles that do not touch.
+StaticSums separated_sums(const PairQuadrature& quadrature, const StaticTraction& traction, int tx,
+                          int ty) {
+  StaticSums sums;
+  quadrature.for_each_product(
+      tx, ty, KernelPart::static_part, [&](const PairQuadrature::CellProduct& cells) {
+        const StaticSums of_cells = product_sums(quadrature.normal(tx), traction, cells);
+        if (cells.x.is_whole() && cells.y.is_whole())
+          sums = of_cells;
+        else
+          add_sums(cells, of_cells, sums);
+      });
   const double areas = quadrature.area(tx) * quadrature.area(ty);
   for (auto& row : sums.values)
     for (double& value : row) value *= areas;
   return sums;
 }
 
-/// The static sums over the points of a pair.
-StaticSums static_sums(const PairQuadrature& quadrature, double kappa, int tx, int ty) {
-  const StaticTraction traction(kappa);
-  if (const auto rules = quadrature.product_rules(tx, ty, KernelPart::static_part))
-    return product_sums(quadrature, traction, tx, ty, *rules);
+/// Those over two triangles that touch.
+StaticSums touching_sums(const PairQuadrature& quadrature, const StaticTraction& traction, int tx,
+                         int ty) {
   StaticSums sums;
   StaticBatch batch;
   alignas(64) double shapes[StaticBatch::kCapacity][StaticBatch::kShapes];
@@ -130,7 +156,9 @@ std::array<Vec3, 3> linear_curls(const TriangleMesh& mesh, int triangle, double 
 
 void add_static_pair(const PairQuadrature& quadrature, double shear_modulus, double kappa, int tx,
                      int ty, PairMatrix* h, PairTractions& adjoint) {
-  const StaticSums sums = static_sums(quadrature, kappa, tx, ty);
+  const StaticTraction traction(kappa);
+  const StaticSums sums = quadrature.touch(tx, ty) ? touching_sums(quadrature, traction, tx, ty)
+                                                   : separated_sums(quadrature, traction, tx, ty);
   for (int a = 0; a < kShapes; ++a)
     for (int b = 0; b < 3; ++b)
       for (int e = 0; e < 9; ++e)

@@ -41,33 +41,6 @@ double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
   return (w + s * u - t * v).norm();
 }
 
-/// A part of a triangle: the barycentric coordinates of its corners, and their places.
-struct Cell {
-  std::array<std::array<double, 3>, 3> corner;
-  Vec3 place[3];
-  double longest, part;  ///< edge [m], of the triangle's area
-
-  int longest_edge() const {  ///< from which corner on
-    int edge = 0;
-    for (int i = 1; i < 3; ++i)
-      if (length(i) > length(edge)) edge = i;
-    return edge;
-  }
-  double length(int edge) const { return (place[(edge + 1) % 3] - place[edge]).norm(); }
-
-  /// One half: the longest edge is cut, so that slivers become triangles instead of more slivers.
-  Cell half(int index) const {
-    const int edge = longest_edge(), first = edge, second = (edge + 1) % 3;
-    Cell c = *this;
-    const int moved = index == 0 ? second : first;
-    for (int a = 0; a < 3; ++a) c.corner[moved][a] = 0.5 * (corner[first][a] + corner[second][a]);
-    c.place[moved] = 0.5 * (place[first] + place[second]);
-    c.longest = c.length(c.longest_edge());
-    c.part = 0.5 * part;
-    return c;
-  }
-};
-
 std::vector<PairPoint> product_rule(const TriangleRule& x, const TriangleRule& y) {
   std::vector<PairPoint> out;
   for (int i = 0; i < x.size; ++i)
@@ -199,10 +172,9 @@ const std::vector<PairPoint>& PairQuadrature::touching_points(int tx, int ty, Ad
   return rules.at({adjacency, touching_order(tx, ty, adjacency, part)});
 }
 
-std::optional<std::array<int, 2>> PairQuadrature::product_rules(int tx, int ty,
-                                                                KernelPart part) const {
-  if (pair(tx, ty).adjacency != Adjacency::none) return std::nullopt;
-  return unsplit_rules(tx, ty, part);
+std::array<Vec3, 3> PairQuadrature::corners(int triangle) const {
+  const Triangle& t = mesh_.triangles[triangle];
+  return {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
 }
 
 /// The rules of a pair that does not touch. Far from each other a lower bound of the distance is
@@ -213,12 +185,7 @@ std::optional<std::array<int, 2>> PairQuadrature::unsplit_rules(int tx, int ty,
   const Panel &x = panels_[tx], &y = panels_[ty];
   double distance = (x.centre - y.centre).norm() - x.radius - y.radius;
   if (distance < kFar * std::max(x.longest_edge, y.longest_edge)) {
-    Vec3 a[3], b[3];
-    for (int k = 0; k < 3; ++k) {
-      a[k] = mesh_.vertices[mesh_.triangles[tx][k]];
-      b[k] = mesh_.vertices[mesh_.triangles[ty][k]];
-    }
-    distance = triangle_distance(a, b);
+    distance = triangle_distance(corners(tx).data(), corners(ty).data());
   }
   const int rule_x = rule_at(distance, x.longest_edge, part),
             rule_y = rule_at(distance, y.longest_edge, part);
@@ -226,46 +193,41 @@ std::optional<std::array<int, 2>> PairQuadrature::unsplit_rules(int tx, int ty,
   return std::array<int, 2>{rule_x, rule_y};
 }
 
-void PairQuadrature::add_separated(int tx, int ty, KernelPart part,
-                                   std::vector<PairPoint>& out) const {
-  const auto whole = [this](int triangle) {
-    Cell c{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}, panels_[triangle].longest_edge, 1};
-    for (int k = 0; k < 3; ++k) c.place[k] = mesh_.vertices[mesh_.triangles[triangle][k]];
-    return c;
+void PairQuadrature::for_each_product(int tx, int ty, KernelPart part,
+                                      const std::function<void(const CellProduct&)>& f) const {
+  const bool swapped = tx > ty;
+  if (swapped) std::swap(tx, ty);
+  const auto give = [&](const TriangleCell& x, const TriangleCell& y, int rule_x, int rule_y) {
+    f(swapped ? CellProduct{y, x, rule_y, rule_x} : CellProduct{x, y, rule_x, rule_y});
   };
+  const TriangleCell of_x(corners(tx)), of_y(corners(ty));
+  if (const auto rules = unsplit_rules(tx, ty, part)) {
+    give(of_x, of_y, (*rules)[0], (*rules)[1]);
+    return;
+  }
   struct Task {
-    Cell x, y;
+    TriangleCell x, y;
     int depth;
   };
-  std::vector<Task> stack = {{whole(tx), whole(ty), 0}};
+  std::vector<Task> stack = {{of_x, of_y, 0}};
   while (!stack.empty()) {
     const Task task = stack.back();
     stack.pop_back();
-    const double distance = triangle_distance(task.x.place, task.y.place);
-    const auto rule_of = [&](const Cell& cell) {
-      const int rule = rule_at(distance, cell.longest, part);
+    const double distance = triangle_distance(task.x.corners().data(), task.y.corners().data());
+    const auto rule_of = [&](const TriangleCell& cell) {
+      const int rule = rule_at(distance, cell.longest_edge(), part);
       return rule < 0 && task.depth >= kDeepest ? kTriangleRuleCount - 1 : rule;
     };
     const int rule_x = rule_of(task.x), rule_y = rule_of(task.y);
-    if (rule_x < 0 || rule_y < 0) {
-      const bool split_x = rule_y >= 0 || (rule_x < 0 && task.x.longest >= task.y.longest);
-      for (int i = 0; i < 2; ++i)
-        stack.push_back(
-            {split_x ? task.x.half(i) : task.x, split_x ? task.y : task.y.half(i), task.depth + 1});
+    if (rule_x >= 0 && rule_y >= 0) {
+      give(task.x, task.y, rule_x, rule_y);
       continue;
     }
-    for (const PairPoint& own : products_[rule_x][rule_y]) {
-      PairPoint p;
-      p.weight = task.x.part * task.y.part * own.weight;
-      for (int a = 0; a < 3; ++a) {
-        p.x[a] = p.y[a] = 0;
-        for (int k = 0; k < 3; ++k) {
-          p.x[a] += own.x[k] * task.x.corner[k][a];
-          p.y[a] += own.y[k] * task.y.corner[k][a];
-        }
-      }
-      out.push_back(p);
-    }
+    const bool x_is_larger = task.x.longest_edge() >= task.y.longest_edge();
+    const bool split_x = rule_y >= 0 || (rule_x < 0 && x_is_larger);
+    for (int i = 0; i < 2; ++i)
+      stack.push_back(split_x ? Task{task.x.half(i), task.y, task.depth + 1}
+                              : Task{task.x, task.y.half(i), task.depth + 1});
   }
 }
 

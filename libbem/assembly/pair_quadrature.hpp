@@ -1,9 +1,12 @@
 #pragma once
 
+#include "assembly/triangle_cell.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "quadrature/rule_choice.hpp"
 #include "quadrature/touching_triangles.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -25,39 +28,46 @@ class PairQuadrature {
   /// the triangles' own numbering of corners; weights add up to the product of the areas [m^4].
   template <class F>
   void for_each_point(int tx, int ty, KernelPart part, const F& f) const {
-    const bool swapped = tx > ty;
-    if (swapped) std::swap(tx, ty);
     const double areas = panels_[tx].area * panels_[ty].area;
-    const auto give = [&](PairPoint& p) {
-      if (swapped) std::swap(p.x, p.y);
-      p.weight *= areas;
-      f(static_cast<const PairPoint&>(p));
-    };
-    const Pairing pairing = pair(tx, ty);
-    if (pairing.adjacency == Adjacency::none) {
-      if (const auto rules = unsplit_rules(tx, ty, part)) {
-        for (PairPoint p : products_[(*rules)[0]][(*rules)[1]]) give(p);
-        return;
-      }
-      std::vector<PairPoint> points;
-      add_separated(tx, ty, part, points);
-      for (PairPoint& p : points) give(p);
+    if (!touch(tx, ty)) {
+      for_each_product(tx, ty, part, [&](const CellProduct& c) {
+        const double scale = areas * c.x.part() * c.y.part();
+        for (const PairPoint& own : products_[c.rule_x][c.rule_y]) {
+          PairPoint p;
+          p.weight = scale * own.weight;
+          c.x.to_triangle(own.x, p.x);
+          c.y.to_triangle(own.y, p.y);
+          f(static_cast<const PairPoint&>(p));
+        }
+      });
       return;
     }
+    const bool swapped = tx > ty;
+    if (swapped) std::swap(tx, ty);
+    const Pairing pairing = pair(tx, ty);
     for (const PairPoint& p : touching_points(tx, ty, pairing.adjacency, part)) {
       PairPoint own;
-      own.weight = p.weight;
+      own.weight = areas * p.weight;
       for (int k = 0; k < 3; ++k) {
         own.x[pairing.x[k]] = p.x[k];
         own.y[pairing.y[k]] = p.y[k];
       }
-      give(own);
+      if (swapped) std::swap(own.x, own.y);
+      f(static_cast<const PairPoint&>(own));
     }
   }
 
-  /// The triangle rules, by number, of which the points of a pair are the product; none if the
-  /// triangles touch or have to be split.
-  std::optional<std::array<int, 2>> product_rules(int tx, int ty, KernelPart part) const;
+  bool touch(int tx, int ty) const { return pair(tx, ty).adjacency != Adjacency::none; }
+
+  /// Parts of two triangles, and the triangle rules on each of them, by number.
+  struct CellProduct {
+    TriangleCell x, y;
+    int rule_x, rule_y;
+  };
+  /// Calls f for the parts of a pair that does not touch: the two triangles, or halves of them if
+  /// they are close.
+  void for_each_product(int tx, int ty, KernelPart part,
+                        const std::function<void(const CellProduct&)>& f) const;
 
   /// Whether a rule of degree 2 is enough for triangles with edges of at most `longest_edge` at
   /// such a distance [m].
@@ -86,6 +96,7 @@ class PairQuadrature {
   const std::vector<PairPoint>& touching_points(int tx, int ty, Adjacency adjacency,
                                                 KernelPart part) const;
   std::optional<std::array<int, 2>> unsplit_rules(int tx, int ty, KernelPart part) const;
+  std::array<Vec3, 3> corners(int triangle) const;
   int rule_at(double distance, double longest_edge, KernelPart part) const {
     return part == KernelPart::static_part
                ? static_choice_.choose(distance / longest_edge, 0)
@@ -94,7 +105,6 @@ class PairQuadrature {
   void make_touching_rules();
   double longest_wave() const;
   int touching_order(int tx, int ty, Adjacency adjacency, KernelPart part) const;
-  void add_separated(int tx, int ty, KernelPart part, std::vector<PairPoint>& out) const;
 
   const TriangleMesh& mesh_;
   RuleChoice static_choice_, dynamic_choice_;
