@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Speed against error: what a scheme, a time step, a mesh, a codec and the tolerances cost and yield.
 
-    scripts/study.py                     # all problems, about 20 minutes of one core
+    scripts/study.py                     # all problems, about an hour of one core
     scripts/study.py rod sphere          # some of them
     scripts/study.py --small             # a smoke test of seconds
     scripts/study.py calculix            # the beam and the rod with CalculiX
@@ -15,7 +15,6 @@ there are used and nothing is installed or built.
 Exit codes: 0 ok, 1 a program failed, 2 usage.
 """
 import argparse
-import dataclasses
 import json
 import os
 import pathlib
@@ -29,7 +28,7 @@ from paper.workspace import ROOT  # noqa: E402
 from study import calculix, report  # noqa: E402
 from study.problems import PROBLEMS  # noqa: E402
 from study.runner import Failed, Runner, programs  # noqa: E402
-from study.settings import SCHEMES  # noqa: E402
+from study.settings import DISCRETISATIONS, SCHEMES  # noqa: E402
 
 
 def arguments():
@@ -39,8 +38,7 @@ def arguments():
     parser.add_argument("--small", action="store_true", help="a smoke test on coarse meshes")
     parser.add_argument("--out", type=pathlib.Path, help="output folder (out/study, with --small out/study/small)")
     parser.add_argument("--schemes", default=",".join(SCHEMES), help="comma-separated (%(default)s)")
-    parser.add_argument("--discretisation", default="collocation", choices=["collocation", "galerkin"],
-                        help="of all runs; the tables show collocation, NAME.json has both (%(default)s)")
+    parser.add_argument("--discretisation", choices=DISCRETISATIONS, help="runs with one only (both)")
     parser.add_argument("--force", action="store_true", help="do again what is there")
     parser.add_argument("--update-docs", action="store_true", help="tables and plots into docs")
     parser.add_argument("--reference", action="store_true", help="with calculix: prints what closed_forms.Beam has of it, no study")
@@ -62,7 +60,7 @@ def run(options):
         for name in names:
             problem = PROBLEMS[name]
             settings = problem.small if options.small else problem.plan.settings(options.schemes.split(","))
-            runner.problem(name, [dataclasses.replace(s, discretisation=options.discretisation) for s in settings])
+            runner.problem(name, [s for s in settings if options.discretisation in (None, s.discretisation)])
     if "calculix" in options.problems:
         calculix.CalculiX(options.out, options.force).study(calculix.SMALL if options.small else calculix.SETTINGS)
 

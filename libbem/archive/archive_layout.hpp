@@ -97,4 +97,7 @@ inline constexpr char kCentrifugal[] = "centrifugal";
 inline constexpr char kBalancePath[] = "/matrices/balance/load";
 inline constexpr char kTractionBalancePath[] = "/matrices/balance/traction";
 
+/// Forces and torques of nodal tractions at lag 0, of the inertial form: [6, 3N] by component.
+inline constexpr char kTractionMoments[] = "balance/traction_moments";
+
 }  // namespace bem

@@ -194,6 +194,7 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
   if (tractions) model.g = load(lags_path("g"));
   model.balance = load_balance(kBalancePath);
   model.traction_balance = load_balance(kTractionBalancePath);
+  model.traction_moments = load_traction_moments();
   return model;
 }
 
@@ -218,6 +219,7 @@ void Archive::check_matrices(const Progress& progress) const {
   load_body_force(kBodyForce);
   if (has_centrifugal()) load_body_force(kCentrifugal);
   for (const char* path : {kBalancePath, kTractionBalancePath}) load_balance(path);
+  load_traction_moments();
   Loading loading(*this, true, true, progress);
   for (const FamilyPlace& place : family_places()) loading.check_numbers(place);
 }

@@ -70,6 +70,8 @@ class Archive {
   /// One of the balance matrices at kBalancePath or kTractionBalancePath, 6 x unknowns; without
   /// columns if it is that of tractions and no loads may act.
   Eigen::MatrixXd load_balance(const std::string& path) const;
+  /// BodyModel::traction_moments.
+  std::vector<Eigen::MatrixXcd> load_traction_moments() const;
 
   /// Bytes that the large matrices take in memory, those of motion alone or all of them.
   double matrix_bytes(bool tractions) const;
@@ -113,6 +115,7 @@ class Archive {
   void check_scheme();
   void check_matrix_datasets();
   void check_body_force_datasets(const char* name);
+  std::vector<std::string> traction_moment_paths() const;
   void check_finite(const double* numbers, std::size_t count, const std::string& path) const;
   std::size_t lag_components() const { return discretisation_.scheme.lag_components().size(); }
   bool is_paired(std::size_t initial_component) const;

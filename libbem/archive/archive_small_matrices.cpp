@@ -19,6 +19,8 @@ void Archive::check_matrix_datasets() {
   if (has_centrifugal()) check_body_force_datasets(kCentrifugal);
   contents_.check_datasets(file_, kBalance, kBalancePath);
   if (loads_ != Loads::none) contents_.check_datasets(file_, kBalance, kTractionBalancePath);
+  for (const std::string& path : traction_moment_paths())
+    contents_.check_datasets(file_, kBalance, path);
   for (const FamilyPlace& place : family_places()) {
     if (codec_ == Codec::haar)
       contents_.check_datasets(file_, kHaarDatasets, place.group);
@@ -69,6 +71,26 @@ BodyForce Archive::load_body_force(const char* name) const {
     force.initial.push_back(std::move(value));
   }
   return force;
+}
+
+/// Real and imaginary parts of all components, one after another.
+std::vector<std::string> Archive::traction_moment_paths() const {
+  std::vector<std::string> paths;
+  if (!is_inertial() || loads_ == Loads::none) return paths;
+  for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i)
+    for (std::string& path : initial_paths(kTractionMoments, i, is_paired(i) ? 2 : 1))
+      paths.push_back(std::move(path));
+  return paths;
+}
+
+std::vector<Eigen::MatrixXcd> Archive::load_traction_moments() const {
+  std::vector<Eigen::MatrixXcd> moments;
+  const std::vector<std::string> paths = traction_moment_paths();
+  for (auto path = paths.begin(); path != paths.end(); ++path) {
+    moments.push_back(load_balance(*path).cast<Complex>());
+    if (is_paired(moments.size() - 1)) moments.back().imag() = load_balance(*++path);
+  }
+  return moments;
 }
 
 Eigen::MatrixXd Archive::load_balance(const std::string& path) const {

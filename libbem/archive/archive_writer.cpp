@@ -61,6 +61,7 @@ double matrix_bytes(const BodyModel& model) {
   for (const auto* initial : {&model.initial_body_force, &model.initial_centrifugal})
     for (const auto& m : *initial) bytes += 16.0 * static_cast<double>(m.size());
   bytes += 8.0 * static_cast<double>(model.balance.size() + model.traction_balance.size());
+  for (const auto& m : model.traction_moments) bytes += 16.0 * static_cast<double>(m.size());
   return bytes;
 }
 
@@ -206,6 +207,15 @@ class MatrixWriter {
   const Progress& progress_;
 };
 
+/// A small matrix of lag 0.
+void write_parts(Hdf5File& file, const BodyModel& model, const char* name, std::size_t component,
+                 const Eigen::MatrixXcd& matrix) {
+  const bool paired = model.discretisation.scheme.initial_components()[component].paired;
+  const auto paths = initial_paths(name, component, paired ? 2 : 1);
+  write_small(file, paths[0], matrix.real());
+  if (paired) write_small(file, paths[1], matrix.imag());
+}
+
 void write_body_force(Hdf5File& file, const BodyModel& model, const char* name,
                       const std::vector<Eigen::MatrixXd>& by_lag,
                       const std::vector<Eigen::MatrixXcd>& initial) {
@@ -219,12 +229,7 @@ void write_body_force(Hdf5File& file, const BodyModel& model, const char* name,
     file.write_block(path, {i / components, i % components, 0, 0}, {1, 1, unknowns, 6},
                      columns.data());
   }
-  for (std::size_t i = 0; i < initial.size(); ++i) {
-    const std::string group = initial_path(name, i);
-    write_small(file, group + "/real", initial[i].real());
-    if (model.discretisation.scheme.initial_components()[i].paired)
-      write_small(file, group + "/imaginary", initial[i].imag());
-  }
+  for (std::size_t i = 0; i < initial.size(); ++i) write_parts(file, model, name, i, initial[i]);
 }
 
 void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& progress) {
@@ -236,6 +241,8 @@ void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& prog
   const SpatialMethod method = model.discretisation.method;
   write_small(file, kBalancePath, model.balance);
   if (tractions) write_small(file, kTractionBalancePath, model.traction_balance);
+  for (std::size_t i = 0; i < model.traction_moments.size(); ++i)
+    write_parts(file, model, kTractionMoments, i, model.traction_moments[i]);
   const auto write_initial = [&](bool of_tractions,
                                  const std::vector<std::unique_ptr<MatrixFamily>>& families) {
     const char* name = initial_name(iterative, of_tractions);

@@ -108,14 +108,21 @@ double Body::window_rate() const {
          dt_;
 }
 
-/// The leak of the frame offset: the window. A free body has a slow leak besides, so that the small
-/// imbalance of the discretisation cannot accumulate. In the inertial form only the codec's remains
-/// (with its default 7e-6 of the velocity that a push gives a rod).
-double Body::leak(bool held) const {
+/// The leak of the frame offset: the window, which shifts s. Free bodies have a slow leak besides,
+/// so that the small imbalance of the discretisation cannot accumulate. In the inertial form only
+/// the codec's and the rounding of its products remain (by default 7e-6 of the velocity that a push
+/// gives a rod): held bodies may have the leak, too, if it is nearly undamped, as a shift of phase
+/// makes their slow vibrations grow.
+FrameOffset::Leak Body::leak(bool held) const {
   const BodyModel& m = *shared_.model;
-  const double per_traversal = m.stiffness ? 0.005 : 0.05;
   const double traversal = m.geometry.extent / m.discretisation.material.shear_speed();
-  return held ? window_rate() : std::max(window_rate(), per_traversal / traversal);
+  const double slow = (m.stiffness ? 0.005 : 0.05) / traversal;
+  if (window_rate() >= slow || (held && !m.stiffness))
+    return FrameOffset::Leak::critical(window_rate());
+  FrameOffset::Leak leak = FrameOffset::Leak::critical(slow);
+  constexpr double kDamped = 0.1;
+  if (m.stiffness) leak.damping *= kDamped;
+  return leak;
 }
 
 /// The window on the rigid motion of a held body: a drag relative to its holder.

@@ -147,7 +147,7 @@ class Body {
   Vec3 joint_displacement(std::size_t i, int stage) const;
   Vec3 contact_displacement(std::size_t i) const;
   double window_rate() const;
-  double leak(bool held) const;
+  FrameOffset::Leak leak(bool held) const;
   void set_drag(const std::optional<Holder>& holder);
   void set_lean(const std::vector<Vec3>& turns);
 

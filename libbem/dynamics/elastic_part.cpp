@@ -5,14 +5,11 @@
 namespace bem {
 namespace {
 
-/// [1, -[x]_x]: displacement of x by a translation and a rotation, stacked for some nodes.
+/// Rigid motions of some nodes.
 Eigen::MatrixXd rigid_columns(const std::vector<Vec3>& x, const std::vector<int>& nodes) {
-  Eigen::MatrixXd m(3 * nodes.size(), 6);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    m.block<3, 3>(static_cast<Eigen::Index>(3 * i), 0) = Mat3::Identity();
-    m.block<3, 3>(static_cast<Eigen::Index>(3 * i), 3) = -cross_matrix(x[nodes[i]]);
-  }
-  return m;
+  std::vector<Vec3> points;
+  for (int node : nodes) points.push_back(x[node]);
+  return rigid_motions(points);
 }
 
 /// Accelerations without history are the balanced ones: the frame offset stays zero.
@@ -63,7 +60,7 @@ Eigen::MatrixXd ElasticPart::history_sums(const std::vector<PrescribedLoad>& loa
   return sums;
 }
 
-void ElasticPart::begin_step(SpectralState free, double leak) {
+void ElasticPart::begin_step(SpectralState free, const FrameOffset::Leak& leak) {
   free_ = std::move(free);
   const bool other_gain = leak != leak_;
   if (other_gain) offset_.set_leak(leak_ = leak);
@@ -345,7 +342,7 @@ std::optional<ElasticPart::Corrected> ElasticPart::end_step() {
     end_.displacements = corrected->displacement;
     end_.accelerations = corrected->acceleration;
   }
-  motion_history_.push(end_.displacements);
+  motion_history_.push(system_.without_rounding(end_.displacements));
   acceleration_history_.push(end_.accelerations);
   if (tractions_) traction_history_.push(end_.load);
   if (corners_) corner_history_.push(end_.corner);

@@ -45,8 +45,8 @@ class ElasticPart {
   /// What the history of everything but the displacements contributes: 3N x components.
   Eigen::MatrixXd history_sums(const std::vector<PrescribedLoad>& loads) const;
   /// Starts a step, without contact nodes, from the displacements without new loads. `leak`: of the
-  /// frame offset [1/s].
-  void begin_step(SpectralState free, double leak);
+  /// frame offset.
+  void begin_step(SpectralState free, const FrameOffset::Leak& leak);
   void set_contact_nodes(const std::vector<int>& nodes);
 
   bool has_centrifugal() const { return centrifugal_ != nullptr; }
@@ -131,7 +131,7 @@ class ElasticPart {
   std::shared_ptr<const InputColumns> centrifugal_;
   std::shared_ptr<const LeastSquaresCorrection> correction_;  ///< null: projection
   FrameOffset offset_;
-  double leak_ = 0;
+  FrameOffset::Leak leak_;
   MotionHistory motion_history_;
   LagHistory acceleration_history_, corner_history_, centrifugal_history_;
   Eigen::MatrixXd centrifugal_stages_;

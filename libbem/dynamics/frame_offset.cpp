@@ -6,14 +6,14 @@ FrameOffset::FrameOffset(const Scheme& scheme, double dt)
     : integration_(dt * scheme.integration()),
       theta_(scheme.theta()),
       multistep_(scheme.is_multistep()) {
-  set_leak(0);
+  set_leak({});
 }
 
-void FrameOffset::set_leak(double rate) {
-  leak_ = rate;
+void FrameOffset::set_leak(const Leak& leak) {
+  leak_ = leak;
   const StageMatrix one = StageMatrix::Identity(integration_.rows(), integration_.cols());
   const StageMatrix system =
-      one + 2 * rate * integration_ + rate * rate * integration_ * integration_;
+      one + leak.damping * integration_ + leak.stiffness * integration_ * integration_;
   solve_ = system.inverse();
   gain_ = integration_ * solve_ * integration_;
 }
@@ -30,7 +30,7 @@ FrameOffset::State FrameOffset::base() const {
 /// Rates at the stages (6 x s); stages are columns, so the integration matrix acts from the right.
 Eigen::MatrixXd FrameOffset::rates(const State& start, const Eigen::MatrixXd& e) const {
   const Eigen::Index stages = e.cols();
-  const Eigen::MatrixXd force = e - (leak_ * leak_ * start.offset).replicate(1, stages);
+  const Eigen::MatrixXd force = e - (leak_.stiffness * start.offset).replicate(1, stages);
   return (start.rate.replicate(1, stages) + force * integration_.transpose()) * solve_.transpose();
 }
 

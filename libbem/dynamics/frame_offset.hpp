@@ -11,15 +11,23 @@ namespace bem {
 /// sense of the volume centroid, which moves inside a compressible body when waves pass. The
 /// elastic solution knows by how much: its frame would accelerate by a', while the momentum asks
 /// for the balanced acceleration; the offset is the double integral of the difference (first three
-/// components translation [m], last three rotation vector [rad], body axes). A leak with rate w,
-/// d'' = e - 2 w d' - w^2 d, keeps discretisation errors of a free body from accumulating; it is
-/// not needed where constraints hold the body.
+/// components translation [m], last three rotation vector [rad], body axes). A leak keeps errors
+/// from accumulating.
 class FrameOffset {
  public:
+  /// d'' = e - damping d' - stiffness d.
+  struct Leak {
+    double damping = 0, stiffness = 0;  ///< [1/s], [1/s^2]
+    static Leak critical(double rate) { return {2 * rate, rate * rate}; }
+    bool operator!=(const Leak& other) const {
+      return damping != other.damping || stiffness != other.stiffness;
+    }
+  };
+
   FrameOffset() = default;
   FrameOffset(const Scheme& scheme, double dt);
 
-  void set_leak(double rate);  ///< w [1/s], >= 0
+  void set_leak(const Leak& leak);
 
   /// Offsets (6 x s) at the stages of the next step for differences e (6 x s, [m/s^2], [rad/s^2]).
   Eigen::MatrixXd stages(const Eigen::MatrixXd& e) const;
@@ -37,8 +45,10 @@ class FrameOffset {
   State base() const;
   Eigen::MatrixXd rates(const State& start, const Eigen::MatrixXd& e) const;
 
-  StageMatrix integration_, solve_, gain_;  ///< dt A, (1 + 2 w dt A + w^2 dt^2 A^2)^{-1}, gain
-  double theta_ = 0, leak_ = 0;
+  /// dt A, the inverse of 1 + damping dt A + stiffness dt^2 A^2, gain
+  StageMatrix integration_, solve_, gain_;
+  double theta_ = 0;
+  Leak leak_;
   bool multistep_ = false;
   State state_, previous_;
 };

@@ -41,6 +41,27 @@ class Adjoint {
     return out;
   }
 
+  /// The same from the lags themselves: a sum of matrices is rounded as the codec stores it.
+  Columns exact_lags(const MatrixFamily& lags, const Columns& z) const {
+    const auto& components = scheme_.lag_components();
+    Columns out = Columns::Zero(z.rows(), z.cols());
+    for (std::size_t m = 0; m < components.size(); ++m) {
+      const Columns inputs = combine(components[m].left, z);
+      Columns products = Columns::Zero(n_, z.cols());
+      std::vector<FamilyTerm> terms;
+      std::vector<double*> outputs;
+      for (Eigen::Index c = 0; c < z.cols(); ++c) {
+        for (int k = 1; k <= model_.discretisation.history_length; ++k)
+          terms.push_back({model_.lag_index(k, static_cast<int>(m)), inputs.col(c).data(), nullptr,
+                           static_cast<int>(c)});
+        outputs.push_back(products.col(c).data());
+      }
+      lags.multiply_transposed_add(terms, outputs);
+      for (int b = 0; b < scheme_.stages(); ++b) stage(out, b) += components[m].right[b] * products;
+    }
+    return out;
+  }
+
   /// X_0^T z for a matrix of lag 0, by initial component.
   Columns initial(const std::vector<std::unique_ptr<MatrixFamily>>& families,
                   const Columns& z) const {
@@ -70,22 +91,26 @@ class Adjoint {
     return combine(StageVector::Ones(scheme_.stages()), z);
   }
 
- private:
-  Columns::BlockXpr stage(Columns& z, int a) const { return z.block(a * n_, 0, n_, z.cols()); }
+  /// What is multiplied by the transpose of a matrix of lag 0.
   Eigen::MatrixXcd component(std::size_t i, const Columns& z) const {
     const InitialComponent& c = scheme_.initial_components()[i];
     Eigen::MatrixXcd out = combine(c.left.real(), z).cast<Complex>();
     out.imag() = combine(c.left.imag(), z);
     return out;
   }
+  /// Adds such a product.
   void spread(std::size_t i, const Eigen::MatrixXcd& product, Columns& out) const {
     const InitialComponent& c = scheme_.initial_components()[i];
     for (int b = 0; b < scheme_.stages(); ++b)
       stage(out, b) += c.multiplicity() * (c.right[b] * product).real();
   }
+
+ private:
+  Columns::BlockXpr stage(Columns& z, int a) const { return z.block(a * n_, 0, n_, z.cols()); }
   Columns combine(const StageVector& factors, const Columns& z) const {
-    Columns out = factors[0] * z.topRows(n_);
-    for (int a = 1; a < scheme_.stages(); ++a) out += factors[a] * z.middleRows(a * n_, n_);
+    const Eigen::Index n = z.rows() / scheme_.stages();
+    Columns out = factors[0] * z.topRows(n);
+    for (int a = 1; a < scheme_.stages(); ++a) out += factors[a] * z.middleRows(a * n, n);
     return out;
   }
   Columns transposed(const MatrixFamily& family, int matrix, const Columns& inputs) const {
@@ -136,9 +161,9 @@ Columns orthonormal_rigid(const Columns& rigid) {
   return qr.householderQ() * Columns::Identity(rigid.cols(), rigid.rows());
 }
 
-/// The Galerkin matrices balance forces and moments exactly: rigid motions are the left null
-/// vectors of H(0), R^T [D Q](0) = -diag(m, inertia), and R^T G(0) is that of the tractions
-/// themselves.
+/// Galerkin matrices without a history balance forces and torques exactly: rigid motions are the
+/// left null vectors of H(0), R^T [D Q](0) = -diag(m, inertia), and R^T G(0) is that of the
+/// tractions themselves.
 void set_exact_balance(BodyModel& model) {
   const TriangleMesh& mesh = model.geometry.nodes;
   const auto n = static_cast<Eigen::Index>(model.nodes());
@@ -165,9 +190,42 @@ void set_exact_balance(BodyModel& model) {
   }
 }
 
+/// The mean over a step of accelerations at the stages, as a functional of these: 6 s x 6.
+Columns mean_of_stages(const Scheme& scheme) {
+  const StageVector weights = scheme.integration().row(scheme.stages() - 1).transpose();
+  Columns mean(6 * scheme.stages(), 6);
+  for (int a = 0; a < scheme.stages(); ++a)
+    mean.middleRows(6 * a, 6) = weights[a] / weights.sum() * Columns::Identity(6, 6);
+  return mean;
+}
+
+/// The inertial form has the rigid motions R as left null vectors of H(0) whatever a codec has made
+/// of its matrices, so that R^T b + R^T [D Q](0) (a', alpha) = 0.
+void set_inertial_balance(BodyModel& model) {
+  const Scheme& scheme = model.discretisation.scheme;
+  const int stages = scheme.stages();
+  const Columns rigid = rigid_motions(model.geometry.nodes.vertices), body = body_force(model);
+  const Eigen::Index n = rigid.rows();
+  Columns moments(6 * stages, 6 * stages), forces(n * stages, 6);
+  for (int a = 0; a < stages; ++a)
+    moments.middleRows(6 * a, 6) = rigid.transpose() * body.middleRows(a * n, n);
+  const Columns motions = -moments.transpose().partialPivLu().solve(mean_of_stages(scheme));
+  for (int a = 0; a < stages; ++a)
+    forces.middleRows(a * n, n) = rigid * motions.middleRows(6 * a, 6);
+  const Adjoint adjoint(model);
+  model.balance = adjoint.stage_sum(forces).transpose();
+  if (model.loads == Loads::none) return;
+  Columns tractions = adjoint.exact_lags(*model.g, forces);
+  for (std::size_t i = 0; i < model.traction_moments.size(); ++i)
+    adjoint.spread(i, model.traction_moments[i].transpose() * adjoint.component(i, motions),
+                   tractions);
+  model.traction_balance = adjoint.stage_sum(tractions).transpose();
+}
+
 }  // namespace
 
 void compute_balance(BodyModel& model) {
+  if (model.stiffness) return set_inertial_balance(model);
   if (model.discretisation.method == SpatialMethod::galerkin) return set_exact_balance(model);
   constexpr double kAcceptable = 1e-4;
   constexpr int kMostIterations = 300, kPatience = 60;  // bending of thin bodies comes late
@@ -195,13 +253,8 @@ void compute_balance(BodyModel& model) {
     out.bottomRows(6 * stages) = -body.transpose() * forces;
     return out;
   };
-  // the functional that is wanted: the mean over a step of the accelerations at the stages
-  const StageVector mean =
-      scheme.integration().row(stages - 1).transpose() / scheme.integration().row(stages - 1).sum();
   Columns wanted = Columns::Zero((n + 6) * stages, 6);
-  for (int a = 0; a < stages; ++a)
-    wanted.block(n * stages + 6 * a, 0, 6, 6) =
-        mean[a] * scales.segment(6 * a, 6).cwiseInverse().asDiagonal().toDenseMatrix();
+  wanted.bottomRows(6 * stages) = scales.cwiseInverse().asDiagonal() * mean_of_stages(scheme);
   const Eigen::VectorXd sizes = wanted.colwise().norm();
   Columns solution = Columns::Zero(wanted.rows(), 6);
   const GmresResult result = gmres<double>(apply, wanted * sizes.cwiseInverse().asDiagonal(),

@@ -77,6 +77,9 @@ struct BodyModel {
   /// accelerations (a', alpha) = balance * b: the discrete form of force = mass x acceleration.
   Eigen::MatrixXd balance;           ///< 6 x 3N
   Eigen::MatrixXd traction_balance;  ///< balance * G(0): 6 x 3N, by nodal tractions
+  /// Forces and torques R^T G_0 of unit nodal tractions by initial component, 6 x 3N; of the
+  /// inertial form, see model/frame_balance.hpp.
+  std::vector<Eigen::MatrixXcd> traction_moments;
   ModelReport report;
 
   bool has_centrifugal() const { return !initial_centrifugal.empty(); }

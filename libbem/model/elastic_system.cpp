@@ -14,7 +14,9 @@ ElasticSystem::ElasticSystem(const BodyModel& model, double window)
   }
   projection_ = RigidProjection(rigid_part(model.geometry.nodes), std::move(response));
   body_force_.lags = model.body_force;
-  if (model.stiffness) rigid_modes_ = orthonormal_rigid_modes(model.geometry.nodes);
+  if (!model.stiffness) return;
+  frame_balance_.emplace(model);
+  rigid_modes_ = orthonormal_rigid_modes(model.geometry.nodes);
 }
 
 LagHistory ElasticSystem::make_history(Eigen::Index inputs) const {
@@ -142,7 +144,7 @@ std::vector<SpectralState> ElasticSystem::solve(
     Eigen::MatrixXcd u = solvers_[i]->solve(loads, guess);
     for (Eigen::Index b = 0; b < guess.cols(); ++b)
       memories[b]->add(component, u.col(b), loads.col(b));
-    const Eigen::MatrixXcd z = projection_.project(component, u);
+    const Eigen::MatrixXcd z = remove_rigid(component, loads, u);
     for (Eigen::Index b = 0; b < bodies; ++b) {
       states[b].displacement.push_back(u.col(b));
       states[b].acceleration.push_back(z.col(b));
@@ -150,6 +152,20 @@ std::vector<SpectralState> ElasticSystem::solve(
   }
   if (model_.stiffness) add_unaccelerated(motions, states);
   return states;
+}
+
+/// Takes the rigid motion out of the solutions u of right-hand sides b; returns z (6 x n).
+Eigen::MatrixXcd ElasticSystem::remove_rigid(int component, const Eigen::MatrixXcd& b,
+                                             Eigen::MatrixXcd& u) const {
+  if (!frame_balance_) return projection_.project(component, u);
+  Eigen::MatrixXcd z(6, u.cols());
+  for (Eigen::Index c = 0; c < u.cols(); ++c) {  // each column on its own: same bits always
+    projection_.project(component, u.col(c));
+    const Eigen::VectorXcd inertia = frame_balance_->body_force(component).transpose() * u.col(c);
+    const Eigen::VectorXcd load = b.col(c);
+    z.col(c) = frame_balance_->accelerations(component, inertia, frame_balance_->moments(load));
+  }
+  return z;
 }
 
 void ElasticSystem::add_unaccelerated(const std::vector<const MotionHistory*>& motions,
@@ -183,6 +199,11 @@ Eigen::MatrixXd ElasticSystem::displacement_stages(const SpectralState& state) c
   return stages(state.displacement);
 }
 
+Eigen::MatrixXd ElasticSystem::without_rounding(const Eigen::MatrixXd& displacements) const {
+  if (!frame_balance_) return displacements;
+  return displacements - frame_balance_->rigid_motions() * (projection_.rigid() * displacements);
+}
+
 Eigen::MatrixXd ElasticSystem::acceleration_stages(const SpectralState& state) const {
   return -stages(state.acceleration);
 }
@@ -197,7 +218,7 @@ InputColumns ElasticSystem::make_columns(std::vector<Eigen::MatrixXd> lags,
   columns.lags = std::move(lags);
   for (std::size_t i = 0; i < initial.size(); ++i) {
     Eigen::MatrixXcd u = solvers_[i]->solve(initial[i]);
-    columns.acceleration.push_back(projection_.project(static_cast<int>(i), u));
+    columns.acceleration.push_back(remove_rigid(static_cast<int>(i), initial[i], u));
     columns.displacement.push_back(std::move(u));
   }
   return columns;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "model/frame_balance.hpp"
 #include "model/initial_solver.hpp"
 #include "model/motion_history.hpp"
 #include "model/rigid_projection.hpp"
 
 #include <deque>
+#include <optional>
 
 namespace bem {
 
@@ -86,9 +88,15 @@ class ElasticSystem {
     accelerations.noalias() -= columns.balanced_acceleration * stages;
   }
   const RigidProjection& projection() const { return projection_; }
+  /// What accelerates the frame in the inertial form; elsewhere null: the projection.
+  const FrameBalance* frame_balance() const { return frame_balance_ ? &*frame_balance_ : nullptr; }
   const BodyModel& model() const { return model_; }
   /// The model's scheme, windowed.
   const Scheme& scheme() const { return scheme_; }
+  /// Displacements of a step (3N x s) as its history takes them: the inertial form integrates them
+  /// twice, so that rigid motion by rounding, which products with compressed matrices leave, is
+  /// taken out.
+  Eigen::MatrixXd without_rounding(const Eigen::MatrixXd& displacements) const;
   LagHistory make_history(Eigen::Index inputs) const;
   MotionHistory make_motion_history() const { return MotionHistory(model_, window_); }
 
@@ -101,6 +109,8 @@ class ElasticSystem {
   const InitialSolver& solver(int component) const { return *solvers_[component]; }
 
  private:
+  Eigen::MatrixXcd remove_rigid(int component, const Eigen::MatrixXcd& b,
+                                Eigen::MatrixXcd& u) const;
   Eigen::MatrixXd stages(const std::vector<Eigen::VectorXcd>& spectral) const;
   void subtract_stiffness(const std::vector<const MotionHistory*>& motions,
                           std::vector<Eigen::MatrixXd>& stage_sums) const;
@@ -112,6 +122,7 @@ class ElasticSystem {
   Scheme scheme_;
   std::vector<std::unique_ptr<InitialSolver>> solvers_;
   RigidProjection projection_;
+  std::optional<FrameBalance> frame_balance_;
   InputColumns body_force_;
   Eigen::MatrixXd rigid_modes_;  ///< orthonormal, 3N x 6; of the inertial form
 };

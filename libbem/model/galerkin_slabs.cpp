@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "kernels/tensors.hpp"
+#include "model/rigid_projection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,12 @@ GalerkinSlabs<T>::GalerkinSlabs(BodyModel& model, AssemblyPrecision precision, M
       form_(form),
       known_(model.nodes(), 0),
       assembler_(model.geometry.nodes, model.geometry.extent, model.discretisation),
-      combination_(model.discretisation, assembler_.layout()) {}
+      combination_(model.discretisation, assembler_.layout()) {
+  if (is_inertial() && this->has_tractions())
+    model.traction_moments.assign(
+        model.discretisation.scheme.initial_components().size(),
+        Eigen::MatrixXcd::Zero(6, static_cast<Eigen::Index>(3 * model.nodes())));
+}
 
 /// f(rows) with rows of nodes [first, last) and some more, in the precision that was asked for.
 template <class T>
@@ -57,6 +63,7 @@ void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
       distribute_g(rows, static_cast<int>(j), slab);
     });
     if (known_[first] != 0) return;
+    if (is_inertial()) add_traction_moments(slab);
     const int end = form_ == MatrixForm::symmetric ? rows.nodes : last;
     parallel_for(end - first, [&](std::size_t i) {
       add_body_forces(rows, first, last, first + static_cast<int>(i));
@@ -109,6 +116,32 @@ void GalerkinSlabs<T>::distribute_g(const GalerkinRows<S>& rows, int j, MatrixSl
       for (int lane = initial; lane < count; ++lane)
         slab.g[lane - initial](to, column) = static_cast<T>(lanes[lane]);
     }
+}
+
+/// What the rows of a slab add to forces and torques of tractions: row by row, so that the sums do
+/// not depend on where slabs begin.
+template <class T>
+void GalerkinSlabs<T>::add_traction_moments(const MatrixSlab<T>& slab) {
+  if (slab.initial_g.empty()) return;
+  const auto& vertices = assembler_.mesh().vertices;
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> rigid =
+      rigid_motions({vertices.begin() + slab.first, vertices.begin() + slab.last}).transpose();
+  const auto sum = [&](const Eigen::MatrixXd& g, Eigen::Index column, Vector6 moments) {
+    for (Eigen::Index row = 0; row < g.rows(); ++row) moments += g(row, column) * rigid.col(row);
+    return moments;
+  };
+  int lane = 0;
+  for (std::size_t i = 0; i < this->model_.traction_moments.size(); ++i) {
+    Eigen::MatrixXcd& moments = this->model_.traction_moments[i];
+    const bool paired = this->model_.discretisation.scheme.initial_components()[i].paired;
+    parallel_for(moments.cols(), [&](std::size_t column) {
+      auto to = moments.col(static_cast<Eigen::Index>(column));
+      const auto c = static_cast<Eigen::Index>(column);
+      to.real() = sum(slab.initial_g[lane], c, to.real());
+      if (paired) to.imag() = sum(slab.initial_g[lane + 1], c, to.imag());
+    });
+    lane += paired ? 2 : 1;
+  }
 }
 
 /// [D Q] = -Z R of the frame's accelerations, and Z u + J p/c2^2 of uniform strain: what rows of

@@ -32,6 +32,7 @@ class GalerkinSlabs : public SlabAssembler<T> {
   void distribute_h(const GalerkinRows<S>& rows, int j, MatrixSlab<T>& slab) const;
   template <class S>
   void distribute_g(const GalerkinRows<S>& rows, int j, MatrixSlab<T>& slab) const;
+  void add_traction_moments(const MatrixSlab<T>& slab);
   template <class S>
   void add_body_forces(const GalerkinRows<S>& rows, int first, int last, int node);
 

@@ -81,16 +81,33 @@ void NodalHistory::visit_state(StateArchive& state, const NodalTractions* tracti
 
 NodalTractions::NodalTractions(const ElasticSystem& system, TractionData data)
     : system_(system), columns_(unknowns_of(data.nodes)), lags_(std::move(data.lags)) {
-  const RigidProjection& projection = system.projection();
-  const Eigen::MatrixXcd functional = projection.rigid().transpose().cast<Complex>();
   for (std::size_t c = 0; c < data.initial.size(); ++c) {
     const InitialSolver& solver = system.solver(static_cast<int>(c));
     response_.push_back(solver.is_iterative() ? solved_response(std::move(data.initial[c]), solver)
                                               : stored_response(std::move(data.initial[c])));
-    // z of all columns at once: the projection's functional times the matrix
-    acceleration_.push_back(projection.accelerations_of_rigid(
-        static_cast<int>(c), response_.back()->multiply_transposed(functional).transpose()));
+    find_accelerations(static_cast<int>(c));
   }
+}
+
+/// Of all columns at once: functionals times the matrix.
+void NodalTractions::find_accelerations(int component) {
+  const RigidProjection& projection = system_.projection();
+  const FrameBalance* balance = system_.frame_balance();
+  Eigen::MatrixXcd functionals(projection.rigid().cols(), balance ? 12 : 6);
+  functionals.leftCols<6>() = projection.rigid().transpose().cast<Complex>();
+  if (balance) functionals.rightCols<6>() = balance->body_force(component);
+  const Eigen::MatrixXcd values =
+      response_[component]->multiply_transposed(functionals).transpose();
+  removed_.push_back(projection.accelerations_of_rigid(component, values.topRows<6>()));
+  if (!balance) {
+    acceleration_.push_back(removed_.back());
+    return;
+  }
+  const Eigen::MatrixXcd inertia =
+      values.bottomRows<6>() -
+      balance->body_force(component).transpose() * projection.response(component) * removed_.back();
+  acceleration_.push_back(
+      balance->accelerations(component, inertia, system_.model().traction_moments[component]));
 }
 
 bool NodalTractions::has_columns(const std::vector<int>& columns) const {
@@ -128,10 +145,10 @@ void NodalTractions::add(const NodalLoad& load, SpectralState& state) const {
   const auto& initial = system_.scheme().initial_components();
   for (std::size_t c = 0; c < initial.size(); ++c) {
     const Eigen::VectorXcd values = load.stages.cast<Complex>() * initial[c].right;
-    const Eigen::VectorXcd z = acceleration_[c](Eigen::all, columns) * values;
     state.displacement[c] += response_[c]->multiply(columns, values);
-    state.displacement[c] -= system_.projection().response(static_cast<int>(c)) * z;
-    state.acceleration[c] += z;
+    state.displacement[c] -= system_.projection().response(static_cast<int>(c)) *
+                             (removed_[c](Eigen::all, columns) * values);
+    state.acceleration[c] += acceleration_[c](Eigen::all, columns) * values;
   }
 }
 
@@ -145,7 +162,7 @@ Eigen::MatrixXcd NodalTractions::response(int component, const std::vector<int>&
   const std::vector<int> row_unknowns = unknowns_of(rows), columns = unknowns_of(loaded);
   Eigen::MatrixXcd out = response_[component]->block(row_unknowns, columns);
   out.noalias() -= system_.projection().response(component)(row_unknowns, Eigen::all) *
-                   acceleration_[component](Eigen::all, columns);
+                   removed_[component](Eigen::all, columns);
   return out;
 }
 

@@ -79,11 +79,15 @@ class NodalTractions {
   Eigen::MatrixXd balanced_acceleration(const std::vector<int>& nodes) const;
 
  private:
+  void find_accelerations(int component);
+
   const ElasticSystem& system_;
   std::vector<int> columns_;  ///< unknowns of the nodes, ascending
   std::shared_ptr<const MatrixFamily> lags_;
   std::vector<std::unique_ptr<TractionResponse>> response_;
-  std::vector<Eigen::MatrixXcd> acceleration_;  ///< z, 6 x 3N, by initial component
+  /// 6 x 3N, by initial component: z, and the rigid part that the projection takes out, which is
+  /// the same but for errors of stored matrices.
+  std::vector<Eigen::MatrixXcd> acceleration_, removed_;
 };
 
 /// The unknowns 3*i + axis of some nodes or slots.

@@ -24,13 +24,18 @@ Eigen::MatrixXd rigid_part(const TriangleMesh& mesh) {
   return rigid;
 }
 
+Eigen::MatrixXd rigid_motions(const std::vector<Vec3>& points) {
+  Eigen::MatrixXd out(3 * points.size(), 6);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out.middleRows<3>(static_cast<Eigen::Index>(3 * i)) << Mat3::Identity(),
+        -cross_matrix(points[i]);
+  return out;
+}
+
 Eigen::MatrixXd orthonormal_rigid_modes(const TriangleMesh& mesh) {
-  const auto n = static_cast<Eigen::Index>(mesh.vertices.size());
-  Eigen::MatrixXd rigid(3 * n, 6);
-  for (Eigen::Index i = 0; i < n; ++i)
-    rigid.middleRows<3>(3 * i) << Mat3::Identity(), -cross_matrix(mesh.vertices[i]);
+  const Eigen::MatrixXd rigid = rigid_motions(mesh.vertices);
   return Eigen::HouseholderQR<Eigen::MatrixXd>(rigid).householderQ() *
-         Eigen::MatrixXd::Identity(3 * n, 6);
+         Eigen::MatrixXd::Identity(rigid.rows(), 6);
 }
 
 RigidProjection::RigidProjection(Eigen::MatrixXd rigid, std::vector<Eigen::MatrixXcd> body_response)

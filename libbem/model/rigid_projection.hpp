@@ -9,6 +9,9 @@ namespace bem {
 /// [rad]. 6 x 3N.
 Eigen::MatrixXd rigid_part(const TriangleMesh& centred_mesh);
 
+/// Unit translations, and rotations about the origin, of some points: 3n x 6.
+Eigen::MatrixXd rigid_motions(const std::vector<Vec3>& points);
+
 /// Orthonormal columns (3N x 6) that span the rigid displacements of the nodes.
 Eigen::MatrixXd orthonormal_rigid_modes(const TriangleMesh& centred_mesh);
 

@@ -7,6 +7,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator  # noqa: E402
 
 from . import measures  # noqa: E402
 from .problems import PROBLEMS  # noqa: E402
+from .settings import COLLOCATION, DISCRETISATIONS  # noqa: E402
 from .tables import SCENES, TITLES, of_scene, peak_memory, per_second, plain  # noqa: E402
 
 COLOURS = {"bdf1": "#999999", "theta:0.5": "#56b4e9", "theta:0.75": "#0072b2", "bdf2": "#e69f00", "radau2": "#d55e00",
@@ -33,14 +34,16 @@ def save(figure, path):
     plt.close(figure)
 
 
-def front(axes, points, colour):
+def front(axes, points, colour, style="-"):
     line = measures.pareto(points)
-    axes.plot([p[0] for p in line], [p[1] for p in line], color=colour, linewidth=0.8, zorder=1)
+    axes.plot([p[0] for p in line], [p[1] for p in line], style, color=colour, linewidth=0.8, zorder=1)
 
 
 def draw_scene(found, scene, path):
-    """Precomputation, simulation, memory; colours are schemes, markers meshes, the line is the front."""
-    records = plain(of_scene(found, scene))
+    """Precomputation, simulation, memory; colours are schemes, markers meshes, hollow ones with collocation; lines are
+    fronts, dashed with collocation."""
+    by_discretisation = {d: plain(of_scene(found, scene), d) for d in DISCRETISATIONS}
+    records = {k: r for part in by_discretisation.values() for k, r in part.items()}
     if not records:
         return False
     meshes = sorted({r["mesh"] for r in records.values()})
@@ -48,10 +51,12 @@ def draw_scene(found, scene, path):
     for axes, cost, label in ((panels[0], lambda r: r["precompute_cpu"], "precomputation [CPU s]"),
                               (panels[1], per_second, "simulation [CPU s per simulated s]"),
                               (panels[2], lambda r: peak_memory(r) / 1e6, "memory [MB]")):
-        front(axes, [(cost(r), r["error"]) for r in records.values()], "black")
-        for r in records.values():
-            axes.plot(cost(r), r["error"], MARKERS[meshes.index(r["mesh"]) % len(MARKERS)], markersize=4, zorder=2,
-                      color=COLOURS.get(r["scheme"], "black"))
+        for discretisation, part in by_discretisation.items():
+            front(axes, [(cost(r), r["error"]) for r in part.values()], "black", "--" if discretisation == COLLOCATION else "-")
+            for r in part.values():
+                axes.plot(cost(r), r["error"], MARKERS[meshes.index(r["mesh"]) % len(MARKERS)], markersize=4, zorder=2,
+                          color=COLOURS.get(r["scheme"], "black"), fillstyle="none" if discretisation == COLLOCATION else "full",
+                          markeredgewidth=0.7)
         dress(axes, label)
     panels[0].set_ylabel(f"error / {PROBLEMS[SCENES[scene]].scale}")
     panels[0].set_title(TITLES[scene], loc="left", fontsize=8)

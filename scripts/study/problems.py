@@ -8,7 +8,7 @@ import numpy as np
 
 from . import measures, meshes
 from .closed_forms import Beam, Drop, Hertz, Rod, Slide, Sphere, Tumbling
-from .settings import BASE, Plan, Setting
+from .settings import BASE, COLLOCATION, Plan, Setting, in_both
 
 ROD, SPHERE, BEAM, TUMBLING, SLIDE, DROP, HERTZ = Rod(), Sphere(), Beam(), Tumbling(), Slide(), Drop(), Hertz()
 SOFT, HARD = Sphere(1e6, 0.0), Sphere(3e5, 0.45)  # the sphere with other Poisson ratios
@@ -211,7 +211,11 @@ def beam_shape(cells):
 
 def damped(mesh, steps, time):
     """With the damping that the programs name against a vibration that grows."""
-    return Setting(mesh, steps, extra=("--damping", f"kelvin_voigt:{time}"))
+    return Setting(mesh, steps, extra=("--damping", f"kelvin_voigt:{time}"), discretisation=COLLOCATION)
+
+
+def windowed(mesh, steps, window):
+    return Setting(mesh, steps, window=window, discretisation=COLLOCATION)
 
 
 def pressed_sphere(sphere, title, scene, plan, small):
@@ -229,33 +233,34 @@ PROBLEMS = {
         {"rod-fixed": (rod_scene(True), measure_rod(True)), "rod-free": (rod_scene(False), measure_rod(False))},
         Plan((((1, 2), (20, 40, 80)), ((4,), (20, 40))),
              {"codec": (4, 20), "quadrature": (2, 40), "window": (2, 40), "history": (2, 40), "corners": (2, 40)},
-             (Setting(4, 80), Setting(4, 80, window="1"), Setting(6, 80), Setting(7, 20))),
+             (*in_both(Setting(4, 80), Setting(6, 80), Setting(7, 20)), windowed(4, 80, "1"))),
         (Setting(1, 20), Setting(2, 20), Setting(1, 20, "bdf1"), Setting(1, 20, codec_tol=1e-2))),
     "sphere": pressed_sphere(
         SPHERE, "Sphere, nu = 0.3, sudden pressure", "sphere",
         Plan((((2, 4), (6, 9, 12)),),
              {"codec": (4, 6), "quadrature": (2, 9), "window": (2, 9), "history": (2, 9)},
-             (Setting(2, 18), Setting(4, 18), Setting(6, 18), Setting(10, 6), damped(2, 9, "3.1e-5"))),
+             (*in_both(Setting(2, 18), Setting(4, 18), Setting(6, 18), Setting(10, 6), Setting(2, 24), Setting(4, 24)),
+              damped(2, 9, "3.1e-5"))),
         (Setting(2, 6), Setting(2, 6, "bdf2"))),
     "sphere-0": pressed_sphere(
         SOFT, "Sphere, nu = 0, sudden pressure", "sphere-0",
-        Plan((), more=tuple(Setting(m, n, s) for m in (2, 4) for n in (9, 18) for s in ("bdf2", BASE))),
+        Plan((), more=in_both(*(Setting(m, n, s) for m in (2, 4) for n in (9, 18) for s in ("bdf2", BASE)))),
         (Setting(2, 9),)),
     "sphere-45": pressed_sphere(
         HARD, "Sphere, nu = 0.45, sudden pressure", "sphere-45",
-        Plan((), more=tuple(Setting(m, n, s) for m in (2, 4) for n in (6, 9) for s in ("bdf2", BASE))),
+        Plan((), more=in_both(*(Setting(m, n, s) for m in (2, 4) for n in (6, 9) for s in ("bdf2", BASE)))),
         (Setting(2, 6),)),
     "mode": Problem(
         "Sphere, free mode S2", QUADRUPOLE.period, "f (10 f^2 + 2 nodes)", "amplitude",
         lambda f: meshes.geodesic_sphere(f, SPHERE.RADIUS), material(SPHERE.DENSITY, SPHERE.shear, SPHERE.poisson),
         {"mode": (pulled_poles(), QUADRUPOLE.measure)},
         Plan((((2,), (10, 20, 40)), ((4,), (10, 20))), {"window": (2, 20), "history": (2, 20)},
-             (Setting(6, 10), Setting(6, 20), damped(2, 20, "5.9e-5")), most_steps={"radau3": 20}),
+             (*in_both(Setting(6, 10), Setting(6, 20)), damped(2, 20, "5.9e-5")), most_steps={"radau3": 20}),
         (Setting(2, 10), Setting(2, 10, "bdf1")), periods=QUADRUPOLE.periods()),
     "beam-free": Problem(
         "Beam that nothing holds, first bending mode", BENDING.period, "cells across", "amplitude",
         beam_shape, material(BEAM.DENSITY, BEAM.SHEAR, BEAM.POISSON), {"beam-free": (bent_beam(), BENDING.measure)},
-        Plan((((2,), (20, 40)), ((4,), (20,))), {"window": (4, 40)}, (Setting(4, 40), Setting(6, 20), Setting(6, 40)),
+        Plan((((2,), (20, 40)), ((4,), (20,))), {"window": (4, 40)}, in_both(Setting(4, 40), Setting(6, 20), Setting(6, 40)),
              most_steps={"radau3": 20}),
         (Setting(1, 20),), periods=BENDING.periods()),
     "beam": Problem(
@@ -264,13 +269,14 @@ PROBLEMS = {
         {"beam": ({"gravity": [0, 0, -BEAM.GRAVITY], "body": {"fixed": [slab(0, -BEAM.LENGTH / 2)]}}, measure_beam)},
         Plan((((2, 4), (20, 40, 80)),),
              {"codec": (4, 40), "quadrature": (2, 40), "window": (4, 40), "history": (2, 40), "corners": (4, 40)},
-             (*(Setting(6, steps) for steps in (20, 40, 80)), Setting(6, 40, "theta:0.75"), damped(4, 40, "4.5e-4"))),
+             (*in_both(*(Setting(6, steps) for steps in (20, 40, 80)), Setting(6, 40, "theta:0.75"), Setting(4, 12), Setting(4, 16)),
+              damped(4, 40, "4.5e-4"))),
         (Setting(1, 20), Setting(1, 20, "theta:0.75")), periods=6),
     "tumble": Problem(
         "Tumbling box, 4 s past its first flip", TUMBLING.DURATION / 2, "cells along the shortest edge", "radians",
         lambda n: box(TUMBLING.SIZE, (3 * n, 2 * n, n)), material(1000, 1e7, 0.3),
         {"tumble": ({"body": {"angular_velocity": list(TUMBLING.SPIN)}}, measure_tumbling)},
-        Plan((((1,), (150, 300, 600)),), more=(Setting(2, 300), Setting(1, 300, model="rigid"))),
+        Plan((((1,), (150, 300, 600)),), more=(*in_both(Setting(2, 300)), Setting(1, 300, model="rigid"))),
         (Setting(1, 150), Setting(1, 300))),
     "slide": Problem(
         "Block that slides to rest", SLIDE.TIME, "cells over the height", "way",
@@ -278,19 +284,19 @@ PROBLEMS = {
         {"slide": ({**FLOOR, "gravity": [0, 0, -SLIDE.GRAVITY],
                     "body": {"position": [0, 0, SLIDE.SIZE[2] / 2], "velocity": [SLIDE.SPEED, 0, 0],
                              "friction": SLIDE.FRICTION}}, measure_slide)},
-        Plan((((1,), (64, 128, 256)),), more=(Setting(2, 128), Setting(1, 128, model="rigid"))),
+        Plan((((1,), (64, 128, 256)),), more=(*in_both(Setting(2, 128)), Setting(1, 128, model="rigid"))),
         (Setting(1, 32), Setting(1, 32, "bdf2")), periods=1.2),
     "drop": Problem(
         "Cube that falls flat, nu = 0", DROP.TIME, "cells per side", "speed times contact time",
         lambda n: box(3 * (DROP.SIDE,), 3 * (n,)), material(DROP.DENSITY, DROP.SHEAR, 0),
         {"drop": (impact_scene(DROP, DROP.SIDE / 2), measure_impact(DROP))},
-        Plan((), more=(*(Setting(4, 40, window=w) for w in ("auto", "1")), Setting(8, 40),
-                       *(Setting(4, 40, s) for s in ("bdf1", "theta:0.75", "bdf2")))),
+        Plan((), more=(*in_both(Setting(4, 40), Setting(8, 40), Setting(4, 80)), windowed(4, 40, "1"),
+                       *(Setting(4, 40, s) for s in ("bdf1", "theta:0.75", "bdf2", "radau3")))),
         (Setting(2, 20),)),
     "ball": Problem(
         "Ball that falls on a floor, against Hertz", HERTZ.TIME, "f (10 f^2 + 2 nodes)", "speed times contact time",
         lambda f: meshes.geodesic_sphere(f, HERTZ.RADIUS), material(HERTZ.DENSITY, HERTZ.SHEAR, HERTZ.POISSON),
         {"ball": (impact_scene(HERTZ, HERTZ.RADIUS), measure_impact(HERTZ))},
-        Plan((), more=(Setting(4, 33), Setting(8, 33), Setting(8, 33, window="1"))),
+        Plan((), more=(*in_both(Setting(4, 33), Setting(8, 33)), windowed(8, 33, "1"))),
         (Setting(2, 20),)),
 }

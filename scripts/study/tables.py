@@ -3,9 +3,9 @@ import numpy as np
 
 from paper.tables import load_remark, machine, table
 
-from . import measures
-from .problems import PROBLEMS
-from .settings import BASE, Setting
+from . import measures, time_schemes
+from .problems import BEAM, BENDING, HARD, PROBLEMS, QUADRUPOLE, ROD, SOFT, SPHERE
+from .settings import BASE, COLLOCATION, DISCRETISATIONS, GALERKIN, Setting
 
 SCENES = {scene: name for name, problem in PROBLEMS.items() for scene in problem.scenes}
 TITLES = {"rod-fixed": "Rod, one end fixed", "rod-free": "Rod, free", "sphere": "Sphere under pressure",
@@ -49,10 +49,31 @@ def of_scene(found, scene):
     return {key.split(": ", 1)[1]: r for key, r in records.items() if key.startswith(scene + ": ")}
 
 
-def plain(records):
-    """Those of the product: default codec, tolerances, window and history."""
-    return {k: r for k, r in records.items()
-            if k == Setting(r["mesh"], r["steps"], r["scheme"]).key() and r["error"] is not None}
+def plain(records, discretisation=GALERKIN):
+    """Those with nothing but a mesh, time step, scheme and discretisation; the model "rigid" has none."""
+    return {k: r for k, r in records.items() if r["error"] is not None and
+            k == Setting(r["mesh"], r["steps"], r["scheme"], discretisation=discretisation).key()}
+
+
+def pressed(sphere):
+    return lambda scheme, steps: time_schemes.error(time_schemes.sphere_surface(sphere), lambda t: sphere.pressed(t) / sphere.static,
+                                                    scheme, sphere.breathing_period(), steps)
+
+
+def pulled(fixed):
+    return lambda scheme, steps: time_schemes.error(time_schemes.rod_end(fixed), lambda t: ROD.end(t, fixed) / ROD.STATIC,
+                                                    scheme, ROD.PERIOD, steps)
+
+
+def ringing(mode):
+    return lambda scheme, steps: time_schemes.ringing_measures(mode.frequency, scheme, mode.period, steps)["error"]
+
+
+# scene: error of the time discretisation alone, by scheme and steps per period
+EXACT_IN_SPACE = {"rod-fixed": pulled(True), "rod-free": pulled(False), "sphere": pressed(SPHERE), "sphere-0": pressed(SOFT),
+                  "sphere-45": pressed(HARD), "mode": ringing(QUADRUPOLE), "beam-free": ringing(BENDING),
+                  "beam": lambda scheme, steps: time_schemes.error(time_schemes.beam_tip, lambda t: BEAM.tip(t) / BEAM.static(),
+                                                                   scheme, BEAM.period(), steps)}
 
 
 def values(records, name):
@@ -71,34 +92,60 @@ def table_front(found, scene):
 
 
 def table_schemes(found, scene):
-    """Errors of the product, and orders in time on the finest mesh that all of the schemes have."""
-    records = plain(of_scene(found, scene))
-    meshes, steps = sorted(values(records, "mesh")), sorted(values(records, "steps"))
+    """Errors, and orders in time, of the discretisations and of the time discretisation alone."""
+    of_all = of_scene(found, scene)
+    grids = {d: plain(of_all, d) for d in DISCRETISATIONS}
+    every = {k: r for records in grids.values() for k, r in records.items()}
+    meshes, steps = sorted(values(every, "mesh")), sorted(values(every, "steps"))
     rows = []
-    for scheme in values(records, "scheme"):
-        for mesh in meshes:
-            runs = [records.get(Setting(mesh, s, scheme).key()) for s in steps]
-            if scheme == "rigid" or sum(r is not None for r in runs) < 2:
-                continue
-            seen = [(s, r["error"]) for s, r in zip(steps, runs) if r]
-            rows.append([scheme, f"{mesh} ({next(r for r in runs if r)['nodes']})", *map(error, runs),
-                         f"{-measures.order(*zip(*seen)):.1f}"])
-    return table(["scheme", "mesh (nodes)", *(f"{s} steps" for s in steps), "order in dt"], rows)
+    for scheme in values(every, "scheme"):
+        for discretisation, records in grids.items():
+            for mesh in meshes:
+                runs = [records.get(Setting(mesh, s, scheme, discretisation=discretisation).key()) for s in steps]
+                if scheme == "rigid" or sum(r is not None for r in runs) < 2:
+                    continue
+                seen = [(s, r["error"]) for s, r in zip(steps, runs) if r]
+                rows.append([scheme, discretisation, next(r for r in runs if r)["nodes"], *map(error, runs),
+                             f"{-measures.order(*zip(*seen)):.1f}"])
+        if scene in EXACT_IN_SPACE and rows:
+            alone = [EXACT_IN_SPACE[scene](scheme, s) for s in steps]
+            rows.append([scheme, "exact in space", "", *(number(e, 3) for e in alone), f"{-measures.order(steps, alone):.1f}"])
+    return table(["scheme", "in space", "nodes", *(f"{s} steps" for s in steps), "order in dt"], rows)
 
 
 def table_meshes(found):
     """Orders in the mesh size, with the default scheme and the most steps, from the two finest meshes."""
     rows = []
     for scene in SCENES:
-        records = plain(of_scene(found, scene))
-        steps = sorted(values(records, "steps"))
-        for s in steps[-2:]:
-            seen = sorted((r["mesh"], r["error"], r["nodes"]) for r in records.values()
-                          if r["scheme"] == BASE and r["steps"] == s)
-            if len(seen) >= 2:
-                rows.append([TITLES[scene], s, ", ".join(f"{number(e, 3)} ({n})" for _, e, n in seen),
-                             f"{-measures.order(*list(zip(*seen[-2:]))[:2]):.1f}"])
-    return table(["problem", "steps per period", "error (nodes)", "order in h"], rows)
+        for discretisation in DISCRETISATIONS:
+            records = plain(of_scene(found, scene), discretisation)
+            for s in sorted(values(records, "steps"))[-2:]:
+                seen = sorted((r["mesh"], r["error"], r["nodes"]) for r in records.values()
+                              if r["scheme"] == BASE and r["steps"] == s)
+                if len(seen) >= 2:
+                    rows.append([TITLES[scene], discretisation, s, ", ".join(f"{number(e, 3)} ({n})" for _, e, n in seen),
+                                 f"{-measures.order(*list(zip(*seen[-2:]))[:2]):.1f}"])
+    return table(["problem", "in space", "steps per period", "error (nodes)", "order in h"], rows)
+
+
+def whole_job(record):
+    """[CPU s] of both programs for two periods."""
+    return record["precompute_cpu"] + record["simulate_cpu"] * 2 / PROBLEMS[SCENES[record["scene"]]].periods
+
+
+def table_targets(found, targets=(0.05, 0.02, 0.01)):
+    """The cheapest runs that keep an error, with each discretisation: CPU seconds of both programs."""
+    rows = []
+    for scene in ("rod-fixed", "sphere", "beam"):
+        for target in targets:
+            row = [TITLES[scene], f"{100 * target:g} %"]
+            for discretisation in DISCRETISATIONS:
+                runs = [(whole_job({**r, "scene": scene}), r["archive_bytes"], key) for key, r in of_scene(found, scene).items()
+                        if r["error"] is not None and r["error"] <= target and (COLLOCATION in key) == (discretisation == COLLOCATION)]
+                cheapest = min(runs, default=None)
+                row += [f"{number(cheapest[0])}, {megabytes(cheapest[1])} ({cheapest[2].replace(' ' + COLLOCATION, '')})"] if cheapest else ["–"]
+            rows.append(row)
+    return table(["problem", "error", *(f"{d} [CPU s], [MB]" for d in DISCRETISATIONS)], rows)
 
 
 def sweep_rows(found, scene, name, reference=None):
@@ -143,11 +190,11 @@ def table_corners(found):
     rows = []
     for scene in ("rod-fixed", "beam"):
         for setting, r, _ in sweep_rows(found, scene, "corners"):
-            base = of_scene(found, scene).get(Setting(setting.mesh, setting.steps).key())
+            base = of_scene(found, scene).get(Setting(setting.mesh, setting.steps, discretisation=setting.discretisation).key())
             if base:
-                rows.append([TITLES[scene], f"{base['nodes']} / {r['nodes']}", f"{error(base)} / {error(r)}",
-                             f"{number(base['precompute_cpu'])} / {number(r['precompute_cpu'])}"])
-    return table(["problem", "nodes: single / double", "error", "precompute [CPU s]"], rows)
+                without, double = (r, base) if setting.discretisation == GALERKIN else (base, r)
+                rows.append([TITLES[scene], setting.discretisation, r["nodes"], f"{error(without)} / {error(double)}"])
+    return table(["problem", "in space", "nodes", "error: single / double"], rows)
 
 
 def table_history(found):
@@ -170,8 +217,7 @@ def table_window(found):
     for scene in ("rod-fixed", "sphere", "mode", "beam-free", "beam"):
         for setting, r, _ in sweep_rows(found, scene, "window"):
             chosen = f"{setting.window} ({r['window']:.6g})" if setting.window == "auto" and "window" in r else setting.window
-            rows.append([TITLES[scene], chosen, error(r), number(r.get("growth_factor"), 6),
-                         left_per_period(r)])
+            rows.append([TITLES[scene], chosen, error(r), number(r.get("growth_factor"), 6), left_per_period(r)])
         rows += [[TITLES[scene], key.split("--damping ")[1], error(r), number(r.get("growth_factor"), 6), left_per_period(r)]
                  for key, r in of_scene(found, scene).items() if "--damping" in key]
     return table(["problem", "window or damping", "error", "growth per step without window",
@@ -183,14 +229,20 @@ def left_per_period(record):
 
 
 def table_energy(found):
-    records = plain(of_scene(found, "mode"))
+    grids = {d: plain(of_scene(found, "mode"), d) for d in DISCRETISATIONS}
+    records = grids[GALERKIN]
     if not records:
         return ""
     finest = max(r["mesh"] for r in records.values() if r["scheme"] == "bdf1") if "bdf1" in values(records, "scheme") else max(values(records, "mesh"))
     steps = sorted({r["steps"] for r in records.values() if r["mesh"] == finest})
-    rows = [[scheme, *(cell(records.get(Setting(finest, s, scheme).key())) for s in steps)] for scheme in values(records, "scheme")]
+    rows = []
+    for scheme in values(records, "scheme"):
+        for d, runs in grids.items():
+            rows.append([scheme, d, *(cell(runs.get(Setting(finest, s, scheme, discretisation=d).key())) for s in steps)])
+        rows.append([scheme, "exact in space", *(cell(time_schemes.ringing_measures(QUADRUPOLE.frequency, scheme, QUADRUPOLE.period, s))
+                                                 for s in steps)])
     nodes = next(r["nodes"] for r in records.values() if r["mesh"] == finest)
-    return f"{nodes} nodes.\n\n" + table(["scheme", *(f"{s} steps per period" for s in steps)], rows)
+    return f"{nodes} nodes.\n\n" + table(["scheme", "in space", *(f"{s} steps per period" for s in steps)], rows)
 
 
 def cell(record):
@@ -232,7 +284,9 @@ def table_slide(found):
 
 def table_impact(found):
     """Contact against closed forms: 1 is exact."""
-    rows = [[TITLES[scene], r["nodes"], key.split(" ", 2)[2], *(number(r[k], 3) for k in ("rebound", "contact_time", "approach", "error"))]
+    rows = [["Flat drop of a cube", "", f"exact in space, {steps} steps {scheme}", number(time_schemes.rebound(scheme, steps), 3), "", "", ""]
+            for steps, scheme in ((40, BASE), (80, BASE), (40, "bdf1"))]
+    rows += [[TITLES[scene], r["nodes"], key.split(" ", 2)[2], *(number(r[k], 3) for k in ("rebound", "contact_time", "approach", "error"))]
             for scene in ("drop", "ball") for key, r in of_scene(found, scene).items() if r["error"] is not None]
     return table(["problem", "nodes", "steps per contact, scheme and options", "rebound", "contact time", "approach", "error"], rows)
 

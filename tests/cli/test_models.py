@@ -78,9 +78,9 @@ class Models(SimulationCase):
         self.assertLess(np.abs(z[-1] - z[-5]).max(), 1e-4)
 
     def test_corrections(self):
-        """Forces of collocation on rigid motions, which the corrections share out differently, are larger."""
+        """They share out differently what is left of forces and torques: of collocation a part, of galerkin the codec's."""
         moving = {"frame": "moving", "correction": "least_squares"}
-        for method, least, most in (("collocation", 1e-6, 0.2), ("galerkin", 1e-9, 1e-5)):
+        for method, least, most in (("collocation", 1e-6, 0.2), ("galerkin", 1e-9, 1e-4)):
             self.archive("bdf1.bem", "--scheme", "bdf1", "--discretisation", method, "--force", dt=0.01)
             ways = [self.pulled_by(self.bar("bdf1.bem", **{**moving, "correction": c}))[-1]
                     for c in ("projection", "least_squares")]

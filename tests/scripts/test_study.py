@@ -12,7 +12,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import calculix, measures, meshes, report, tables  # noqa: E402
+from study import calculix, measures, meshes, report, tables, time_schemes  # noqa: E402
 from study.closed_forms import Beam, Rod, Sphere, Tumbling  # noqa: E402
 from study.problems import PROBLEMS  # noqa: E402
 from study.settings import SCHEMES, Setting  # noqa: E402
@@ -61,6 +61,33 @@ class ClosedForms(unittest.TestCase):
         momentum = np.einsum("nij,jk,nlk,nl->ni", middle, inertia, middle, omega)
         np.testing.assert_allclose(momentum, np.tile(inertia @ box.SPIN, (400, 1)), atol=2e-3)
         self.assertLess(r[:, 1, 1].min(), -0.5)  # turned over
+
+
+class TimeSchemes(unittest.TestCase):
+    """Against the tables of the library's verification, and each other."""
+
+    def test_rod_and_sphere_exact_in_space(self):
+        rod, sphere = Rod(), Sphere()
+        for scheme, error in (("bdf1", 0.269), ("theta:0.75", 0.131), ("bdf2", 0.119), ("radau2", 0.015), ("radau3", 0.0053)):
+            steps = 100 / 3  # 4 ms
+            times = np.arange(67) * rod.PERIOD / steps
+            found = time_schemes.response(time_schemes.rod_end(True), scheme, rod.PERIOD / steps, 66)
+            off = measures.rms((found - rod.end(times, True) / rod.STATIC)[1:])
+            self.assertAlmostEqual(off, error, delta=0.05 * error)
+        alone = [time_schemes.error(time_schemes.sphere_surface(sphere), lambda t: sphere.pressed(t) / sphere.static, "radau2",
+                                    sphere.breathing_period(), steps) for steps in (18, 36)]
+        self.assertAlmostEqual(alone[0], 0.0216, 3)
+        self.assertLess(alone[1], 0.65 * alone[0])
+
+    def test_factors_of_vibrations(self):
+        for scheme, order in (("bdf1", 1), ("bdf2", 2), ("theta:0.5", 1), ("radau2", 3), ("radau3", 5)):
+            off = [abs(time_schemes.ringing(1, scheme, dt) - np.exp(1j * dt)) for dt in (0.1, 0.05)]
+            self.assertAlmostEqual(math.log2(off[0] / off[1]), order + 1, delta=0.3, msg=scheme)
+
+    def test_a_rod_leaves_a_wall_with_its_speed_when_steps_are_short(self):
+        rebounds = [time_schemes.rebound("radau2", steps) for steps in (20, 40, 80)]
+        self.assertEqual(rebounds, sorted(rebounds))
+        self.assertAlmostEqual(rebounds[-1], 0.98, 2)
 
 
 class Measures(unittest.TestCase):
@@ -135,7 +162,7 @@ class Tables(unittest.TestCase):
         self.assertEqual(Setting(2, 40).key(), "mesh 2 40 steps radau2")
         self.assertEqual(Setting(2, 40, "bdf1", codec_tol=1e-2, history=8).key(),
                          "mesh 2 40 steps bdf1 codec_tol 0.01 history 8")
-        self.assertEqual(Setting(2, 40, discretisation="galerkin").key(), "mesh 2 40 steps radau2 discretisation galerkin")
+        self.assertEqual(Setting(2, 40, discretisation="collocation").key(), "mesh 2 40 steps radau2 collocation")
         for name, problem in PROBLEMS.items():
             settings = problem.plan.settings(SCHEMES)
             self.assertEqual(len({s.key() for s in settings}), len(settings), name)
