@@ -67,79 +67,82 @@ class ProductShapes {
 
 /// Sums over parts of two triangles that do not touch, by the shape functions of the parts and as a
 /// fraction of their areas.
-StaticSums product_sums(const Vec3& normal, const StaticTraction& traction,
-                        const PairQuadrature::CellProduct& cells) {
+void add_product_sums(const Vec3& normal, const StaticTraction& traction,
+                      const PairQuadrature::Part& part, StaticSums& sums) {
   static const ProductShapes shapes;
-  const TriangleRule &of_x = triangle_rules()[cells.rule_x], &of_y = triangle_rules()[cells.rule_y];
+  const TriangleRule &of_x = triangle_rules()[part.rule_x], &of_y = triangle_rules()[part.rule_y];
   Vec3 y[kMaxRulePoints];
-  for (int j = 0; j < of_y.size; ++j) y[j] = cells.y.position(of_y.points[j].barycentric);
-  StaticSums sums;
+  for (int j = 0; j < of_y.size; ++j) y[j] = part.y.position(of_y.points[j].barycentric);
   StaticBatch batch;
   int done = 0;
   const auto flush = [&] {
-    batch.shapes = shapes.at(cells.rule_x, cells.rule_y, done);
+    batch.shapes = shapes.at(part.rule_x, part.rule_y, done);
     accumulate_static(normal, traction, batch, sums);
     done += batch.size;
     batch.size = 0;
   };
   for (int i = 0; i < of_x.size; ++i) {
-    const Vec3 x = cells.x.position(of_x.points[i].barycentric);
+    const Vec3 x = part.x.position(of_x.points[i].barycentric);
     for (int j = 0; j < of_y.size; ++j) {
       batch.add(y[j] - x);
       if (batch.size == StaticBatch::kCapacity) flush();
     }
   }
   if (batch.size > 0) flush();
-  return sums;
 }
 
-/// Adds sums over parts of triangles to those by the shape functions of the triangles.
-void add_sums(const PairQuadrature::CellProduct& cells, const StaticSums& of_cells,
-              StaticSums& sums) {
-  using Products = Eigen::Matrix<double, kShapes, 3, Eigen::RowMajor>;
-  const double part = cells.x.part() * cells.y.part();
-  const Eigen::Matrix<double, kShapes, kShapes> x = part * cells.x.shapes();
-  const Mat3 y = cells.y.shapes().topLeftCorner<3, 3>();
-  for (int e = 0; e < StaticSums::kCount; ++e)
-    Eigen::Map<Products>(sums.values[e]) +=
-        (x * Eigen::Map<const Products>(of_cells.values[e])).lazyProduct(y.transpose());
-}
-
-/// The static sums over two triangles that do not touch.
-StaticSums separated_sums(const PairQuadrature& quadrature, const StaticTraction& traction, int tx,
-                          int ty) {
-  StaticSums sums;
-  quadrature.for_each_product(
-      tx, ty, KernelPart::static_part, [&](const PairQuadrature::CellProduct& cells) {
-        const StaticSums of_cells = product_sums(quadrature.normal(tx), traction, cells);
-        if (cells.x.is_whole() && cells.y.is_whole())
-          sums = of_cells;
-        else
-          add_sums(cells, of_cells, sums);
-      });
-  const double areas = quadrature.area(tx) * quadrature.area(ty);
-  for (auto& row : sums.values)
-    for (double& value : row) value *= areas;
-  return sums;
-}
-
-/// Those over two triangles that touch.
-StaticSums touching_sums(const PairQuadrature& quadrature, const StaticTraction& traction, int tx,
-                         int ty) {
-  StaticSums sums;
+/// The same over parts that touch.
+void add_touching_sums(const PairQuadrature& quadrature, const Vec3& normal,
+                       const StaticTraction& traction, const PairQuadrature::Part& part,
+                       StaticSums& sums) {
   StaticBatch batch;
   alignas(64) double shapes[StaticBatch::kCapacity][StaticBatch::kShapes];
   batch.shapes = shapes;
   const auto flush = [&] {
-    accumulate_static(quadrature.normal(tx), traction, batch, sums);
+    accumulate_static(normal, traction, batch, sums);
     batch.size = 0;
   };
-  quadrature.for_each_point(tx, ty, KernelPart::static_part, [&](const PairPoint& p) {
+  quadrature.for_each_point_of(part, [&](const PairPoint& p) {
     set_shapes(p.x, p.y, p.weight, shapes[batch.size]);
-    batch.add(quadrature.position(ty, p.y) - quadrature.position(tx, p.x));
+    batch.add(part.y.position(p.y) - part.x.position(p.x));
     if (batch.size == StaticBatch::kCapacity) flush();
   });
   if (batch.size > 0) flush();
+}
+
+/// Adds sums over parts of triangles to those by the shape functions of the triangles.
+void add_sums(const PairQuadrature::Part& part, const StaticSums& of_part, StaticSums& sums) {
+  using Products = Eigen::Matrix<double, kShapes, 3, Eigen::RowMajor>;
+  const Eigen::Matrix<double, kShapes, kShapes> x = part.fraction() * part.x.shapes();
+  const Mat3 y = part.y.shapes().topLeftCorner<3, 3>();
+  for (int e = 0; e < StaticSums::kCount; ++e)
+    Eigen::Map<Products>(sums.values[e]) +=
+        (x * Eigen::Map<const Products>(of_part.values[e])).lazyProduct(y.transpose());
+}
+
+/// The static sums over two triangles.
+StaticSums static_sums(const PairQuadrature& quadrature, double kappa, int tx, int ty) {
+  const StaticTraction traction(kappa);
+  const Vec3& normal = quadrature.normal(tx);
+  StaticSums sums;
+  const auto add = [&](const PairQuadrature::Part& part, StaticSums& to) {
+    if (part.touching)
+      add_touching_sums(quadrature, normal, traction, part, to);
+    else
+      add_product_sums(normal, traction, part, to);
+  };
+  quadrature.for_each_part(tx, ty, KernelPart::static_part, [&](const PairQuadrature::Part& part) {
+    if (part.is_whole()) {
+      add(part, sums);
+      return;
+    }
+    StaticSums of_part;
+    add(part, of_part);
+    add_sums(part, of_part, sums);
+  });
+  const double areas = quadrature.area(tx) * quadrature.area(ty);
+  for (auto& row : sums.values)
+    for (double& value : row) value *= areas;
   return sums;
 }
 
@@ -156,9 +159,7 @@ std::array<Vec3, 3> linear_curls(const TriangleMesh& mesh, int triangle, double 
 
 void add_static_pair(const PairQuadrature& quadrature, double shear_modulus, double kappa, int tx,
                      int ty, PairMatrix* h, PairTractions& adjoint) {
-  const StaticTraction traction(kappa);
-  const StaticSums sums = quadrature.touch(tx, ty) ? touching_sums(quadrature, traction, tx, ty)
-                                                   : separated_sums(quadrature, traction, tx, ty);
+  const StaticSums sums = static_sums(quadrature, kappa, tx, ty);
   for (int a = 0; a < kShapes; ++a)
     for (int b = 0; b < 3; ++b)
       for (int e = 0; e < 9; ++e)

@@ -13,9 +13,13 @@ namespace {
 constexpr int kDeepest = 24;  // times that triangles of a pair are halved
 constexpr double kObtuse = 110 * kPi / 180;
 constexpr int kMoreForObtuse = 3;  // Gauss points per direction
-/// Longest edge over height: from here on static parts need more points, whose errors grow with it.
-constexpr double kSlender = 4, kVerySlender = 8;
-constexpr int kMoreForSlender = 4, kMoreForVerySlender = 6;
+/// Gauss points per direction that static parts need more, whose errors grow with the longest edge
+/// over the height on it.
+struct SlenderLevel {
+  double from;
+  int more;
+};
+constexpr SlenderLevel kSlender[] = {{4, 4}, {8, 6}, {16, 12}};
 /// Cosines of the angle of the normals at a shared edge from which on it counts as sharp: for the
 /// dynamic parts, whose kernels are not symmetric about it, and for the static ones.
 constexpr double kFolded = 0.8, kSharp = -0.2;
@@ -74,20 +78,18 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
       wave_number_(wave_number),
       static_order_(static_order(tolerance)),
       dynamic_order_(dynamic_order(tolerance)) {
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 corners[3] = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-    Panel p{triangle_normal(mesh, t),
-            (corners[0] + corners[1] + corners[2]) / 3,
-            triangle_area(mesh, t),
-            longest_edge(mesh, t),
-            0,
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& triangle = mesh.triangles[t];
+    const auto places = corners(static_cast<int>(t));
+    const TriangleCell cell(places);
+    Panel p{triangle_normal(mesh, triangle),
+            (places[0] + places[1] + places[2]) / 3,
+            triangle_area(mesh, triangle),
+            cell.longest_edge(),
+            cell.slenderness(),
+            cell.widest_angle(),
             0};
-    for (const Vec3& x : corners) p.radius = std::max(p.radius, (x - p.centre).norm());
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 u = (mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]]).normalized();
-      const Vec3 v = (mesh.vertices[t[(k + 2) % 3]] - mesh.vertices[t[k]]).normalized();
-      p.widest_angle = std::max(p.widest_angle, std::acos(std::clamp(u.dot(v), -1.0, 1.0)));
-    }
+    for (const Vec3& x : places) p.radius = std::max(p.radius, (x - p.centre).norm());
     panels_.push_back(p);
   }
   for (int x = 0; x < kTriangleRuleCount; ++x)
@@ -100,13 +102,13 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
 void PairQuadrature::make_touching_rules() {
   const int radial =
       kDynamicRadial + std::min(kMostForWaves, static_cast<int>(0.4 * longest_wave()));
-  const auto need = [&](int tx, int ty, Adjacency adjacency) {
-    for (const KernelPart part : {KernelPart::static_part, KernelPart::dynamic_part}) {
-      const bool is_static = part == KernelPart::static_part;
-      const int order = touching_order(tx, ty, adjacency, part);
-      std::vector<PairPoint>& rule =
-          (is_static ? static_rules_ : dynamic_rules_)[{adjacency, order}];
-      if (rule.empty()) rule = touching_rule(adjacency, order, is_static ? kStaticRadial : radial);
+  const auto need = [&](int tx, int ty) {
+    for (const KernelPart kernel : {KernelPart::static_part, KernelPart::dynamic_part}) {
+      const bool is_static = kernel == KernelPart::static_part;
+      const Adjacency how = adjacency(tx, ty);
+      const int order = touching_order(tx, ty, how, kernel);
+      std::vector<PairPoint>& rule = (is_static ? static_rules_ : dynamic_rules_)[{how, order}];
+      if (rule.empty()) rule = touching_rule(how, order, is_static ? kStaticRadial : radial);
     }
   };
   std::vector<std::vector<int>> fans(mesh_.vertices.size());
@@ -114,7 +116,7 @@ void PairQuadrature::make_touching_rules() {
     for (int v : mesh_.triangles[t]) fans[v].push_back(static_cast<int>(t));
   for (const std::vector<int>& fan : fans)
     for (int tx : fan)
-      for (int ty : fan) need(tx, ty, pair(tx, ty).adjacency);
+      for (int ty : fan) need(tx, ty);
 }
 
 bool PairQuadrature::midpoints_suffice(double distance, double longest_edge,
@@ -130,46 +132,51 @@ double PairQuadrature::longest_wave() const {
   return longest * wave_number_;
 }
 
-PairQuadrature::Pairing PairQuadrature::pair(int tx, int ty) const {
-  const Triangle &a = mesh_.triangles[tx], &b = mesh_.triangles[ty];
-  Pairing p{};
-  int shared = 0, rest_x = 3, rest_y = 3;
-  for (int i = 0; i < 3; ++i) {
-    const auto at = std::find(b.begin(), b.end(), a[i]);
-    if (at == b.end()) {
-      p.x[--rest_x] = i;
-    } else {
-      p.x[shared] = i;
-      p.y[shared++] = static_cast<int>(at - b.begin());
-    }
-  }
-  for (int j = 0; j < 3; ++j)
-    if (std::find(a.begin(), a.end(), b[j]) == a.end()) p.y[--rest_y] = j;
-  p.adjacency = static_cast<Adjacency>(shared);
-  return p;
+Adjacency PairQuadrature::adjacency(int tx, int ty) const {
+  int shared = 0;
+  for (int a : mesh_.triangles[tx])
+    for (int b : mesh_.triangles[ty]) shared += a == b;
+  return static_cast<Adjacency>(shared);
 }
 
-int PairQuadrature::touching_order(int tx, int ty, Adjacency adjacency, KernelPart part) const {
-  const bool is_static = part == KernelPart::static_part;
+int PairQuadrature::touching_order(int tx, int ty, Adjacency adjacency, KernelPart kernel) const {
+  const bool is_static = kernel == KernelPart::static_part;
   int order = is_static ? static_order_ : dynamic_order_;
   const Panel &x = panels_[tx], &y = panels_[ty];
-  const auto slenderness = [](const Panel& p) {
-    return p.longest_edge * p.longest_edge / (2 * p.area);
-  };
-  const double slender = std::max(slenderness(x), slenderness(y));
-  if (is_static && slender > kSlender)
-    order += slender > kVerySlender ? kMoreForVerySlender : kMoreForSlender;
-  else if (std::max(x.widest_angle, y.widest_angle) > kObtuse)
+  const double slender = std::max(x.slenderness, y.slenderness);
+  if (is_static && slender > kSlender[0].from) {
+    int more = 0;
+    for (const auto& level : kSlender)
+      if (slender > level.from) more = level.more;
+    order += more;
+  } else if (std::max(x.widest_angle, y.widest_angle) > kObtuse) {
     order += kMoreForObtuse;
+  }
   if (adjacency == Adjacency::edge && x.normal.dot(y.normal) < (is_static ? kSharp : kFolded))
     order += is_static ? kStaticForEdges : kDynamicForEdges;
   return order;
 }
 
-const std::vector<PairPoint>& PairQuadrature::touching_points(int tx, int ty, Adjacency adjacency,
-                                                              KernelPart part) const {
-  const Rules& rules = part == KernelPart::static_part ? static_rules_ : dynamic_rules_;
-  return rules.at({adjacency, touching_order(tx, ty, adjacency, part)});
+/// Corners that the triangles share come first.
+PairQuadrature::Part PairQuadrature::touching_part(int tx, int ty, KernelPart kernel) const {
+  const Triangle &a = mesh_.triangles[tx], &b = mesh_.triangles[ty];
+  Part part{TriangleCell(corners(tx)), TriangleCell(corners(ty))};
+  int shared = 0, rest_x = 3, rest_y = 3;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = std::find(b.begin(), b.end(), a[i]);
+    if (at == b.end()) {
+      part.corner_x[--rest_x] = i;
+    } else {
+      part.corner_x[shared] = i;
+      part.corner_y[shared++] = static_cast<int>(at - b.begin());
+    }
+  }
+  for (int j = 0; j < 3; ++j)
+    if (std::find(a.begin(), a.end(), b[j]) == a.end()) part.corner_y[--rest_y] = j;
+  const auto adjacency = static_cast<Adjacency>(shared);
+  const Rules& rules = kernel == KernelPart::static_part ? static_rules_ : dynamic_rules_;
+  part.touching = &rules.at({adjacency, touching_order(tx, ty, adjacency, kernel)});
+  return part;
 }
 
 std::array<Vec3, 3> PairQuadrature::corners(int triangle) const {
@@ -193,41 +200,46 @@ std::optional<std::array<int, 2>> PairQuadrature::unsplit_rules(int tx, int ty,
   return std::array<int, 2>{rule_x, rule_y};
 }
 
-void PairQuadrature::for_each_product(int tx, int ty, KernelPart part,
-                                      const std::function<void(const CellProduct&)>& f) const {
+void PairQuadrature::for_each_part(int tx, int ty, KernelPart kernel,
+                                   const std::function<void(const Part&)>& f) const {
   const bool swapped = tx > ty;
   if (swapped) std::swap(tx, ty);
-  const auto give = [&](const TriangleCell& x, const TriangleCell& y, int rule_x, int rule_y) {
-    f(swapped ? CellProduct{y, x, rule_y, rule_x} : CellProduct{x, y, rule_x, rule_y});
+  const auto give = [&](Part part) {
+    if (swapped) {
+      std::swap(part.x, part.y);
+      std::swap(part.rule_x, part.rule_y);
+      part.swapped = true;
+    }
+    f(part);
   };
-  const TriangleCell of_x(corners(tx)), of_y(corners(ty));
-  if (const auto rules = unsplit_rules(tx, ty, part)) {
-    give(of_x, of_y, (*rules)[0], (*rules)[1]);
+  const Pair whole{TriangleCell(corners(tx)), TriangleCell(corners(ty))};
+  if (adjacency(tx, ty) != Adjacency::none) {
+    give(touching_part(tx, ty, kernel));
     return;
   }
-  struct Task {
-    TriangleCell x, y;
-    int depth;
-  };
-  std::vector<Task> stack = {{of_x, of_y, 0}};
+  if (const auto rules = unsplit_rules(tx, ty, kernel)) {
+    give({whole.x, whole.y, (*rules)[0], (*rules)[1]});
+    return;
+  }
+  std::vector<Pair> stack = {whole};
   while (!stack.empty()) {
-    const Task task = stack.back();
+    const Pair pair = stack.back();
     stack.pop_back();
-    const double distance = triangle_distance(task.x.corners().data(), task.y.corners().data());
+    const double distance = triangle_distance(pair.x.corners().data(), pair.y.corners().data());
     const auto rule_of = [&](const TriangleCell& cell) {
-      const int rule = rule_at(distance, cell.longest_edge(), part);
-      return rule < 0 && task.depth >= kDeepest ? kTriangleRuleCount - 1 : rule;
+      const int rule = rule_at(distance, cell.longest_edge(), kernel);
+      return rule < 0 && pair.depth >= kDeepest ? kTriangleRuleCount - 1 : rule;
     };
-    const int rule_x = rule_of(task.x), rule_y = rule_of(task.y);
+    const int rule_x = rule_of(pair.x), rule_y = rule_of(pair.y);
     if (rule_x >= 0 && rule_y >= 0) {
-      give(task.x, task.y, rule_x, rule_y);
+      give({pair.x, pair.y, rule_x, rule_y});
       continue;
     }
-    const bool x_is_larger = task.x.longest_edge() >= task.y.longest_edge();
+    const bool x_is_larger = pair.x.longest_edge() >= pair.y.longest_edge();
     const bool split_x = rule_y >= 0 || (rule_x < 0 && x_is_larger);
     for (int i = 0; i < 2; ++i)
-      stack.push_back(split_x ? Task{task.x.half(i), task.y, task.depth + 1}
-                              : Task{task.x, task.y.half(i), task.depth + 1});
+      stack.push_back(
+          {split_x ? pair.x.half(i) : pair.x, split_x ? pair.y : pair.y.half(i), pair.depth + 1});
   }
 }
 

@@ -17,57 +17,65 @@ namespace bem {
 enum class KernelPart { static_part, dynamic_part };
 
 /// Distributes quadrature points over pairs of triangles of a mesh: Sauter and Schwab's where they
-/// touch, products of triangle rules elsewhere, with the larger one split where they are close. The
-/// points of (t, u) are those of (u, t).
+/// touch, products of triangle rules elsewhere, of halves of triangles that are close. The points
+/// of (t, u) are those of (u, t).
 class PairQuadrature {
  public:
   /// tolerance: relative error aimed at. wave_number: |s|_max/c2 [1/m]. The mesh must outlive this.
   PairQuadrature(const TriangleMesh& mesh, double tolerance, double wave_number);
 
-  /// Calls f(point) for the points x on triangle `tx` and y on `ty`, by barycentric coordinates in
-  /// the triangles' own numbering of corners; weights add up to the product of the areas [m^4].
+  /// Parts of two triangles with the points on them.
+  struct Part {
+    TriangleCell x, y;
+    int rule_x = -1, rule_y = -1;  ///< triangle rules, by number, whose product is taken, or else
+    const std::vector<PairPoint>* touching = nullptr;  ///< points whose corners are such that
+    std::array<int, 3> corner_x = {}, corner_y = {};   ///< corner k is this one of x, of y
+    bool swapped = false;                              ///< x of those points is y of these
+
+    bool is_whole() const { return x.is_whole() && y.is_whole(); }
+    /// Of the product of the areas of the triangles.
+    double fraction() const { return x.part() * y.part(); }
+  };
+  /// Calls f for all parts of a pair of triangles.
+  void for_each_part(int tx, int ty, KernelPart kernel,
+                     const std::function<void(const Part&)>& f) const;
+
+  /// Calls f(point) for the points x and y of a part by barycentric coordinates in its cells, with
+  /// weights that add up to one.
   template <class F>
-  void for_each_point(int tx, int ty, KernelPart part, const F& f) const {
-    const double areas = panels_[tx].area * panels_[ty].area;
-    if (!touch(tx, ty)) {
-      for_each_product(tx, ty, part, [&](const CellProduct& c) {
-        const double scale = areas * c.x.part() * c.y.part();
-        for (const PairPoint& own : products_[c.rule_x][c.rule_y]) {
-          PairPoint p;
-          p.weight = scale * own.weight;
-          c.x.to_triangle(own.x, p.x);
-          c.y.to_triangle(own.y, p.y);
-          f(static_cast<const PairPoint&>(p));
-        }
-      });
+  void for_each_point_of(const Part& part, const F& f) const {
+    if (!part.touching) {
+      for (const PairPoint& p : products_[part.rule_x][part.rule_y]) f(p);
       return;
     }
-    const bool swapped = tx > ty;
-    if (swapped) std::swap(tx, ty);
-    const Pairing pairing = pair(tx, ty);
-    for (const PairPoint& p : touching_points(tx, ty, pairing.adjacency, part)) {
+    for (const PairPoint& p : *part.touching) {
       PairPoint own;
-      own.weight = areas * p.weight;
+      own.weight = p.weight;
       for (int k = 0; k < 3; ++k) {
-        own.x[pairing.x[k]] = p.x[k];
-        own.y[pairing.y[k]] = p.y[k];
+        own.x[part.corner_x[k]] = p.x[k];
+        own.y[part.corner_y[k]] = p.y[k];
       }
-      if (swapped) std::swap(own.x, own.y);
+      if (part.swapped) std::swap(own.x, own.y);
       f(static_cast<const PairPoint&>(own));
     }
   }
 
-  bool touch(int tx, int ty) const { return pair(tx, ty).adjacency != Adjacency::none; }
-
-  /// Parts of two triangles, and the triangle rules on each of them, by number.
-  struct CellProduct {
-    TriangleCell x, y;
-    int rule_x, rule_y;
-  };
-  /// Calls f for the parts of a pair that does not touch: the two triangles, or halves of them if
-  /// they are close.
-  void for_each_product(int tx, int ty, KernelPart part,
-                        const std::function<void(const CellProduct&)>& f) const;
+  /// Calls f(point) for the points x on triangle `tx` and y on `ty`, by barycentric coordinates in
+  /// the triangles' own numbering of corners; weights add up to the product of the areas [m^4].
+  template <class F>
+  void for_each_point(int tx, int ty, KernelPart kernel, const F& f) const {
+    const double areas = panels_[tx].area * panels_[ty].area;
+    for_each_part(tx, ty, kernel, [&](const Part& part) {
+      const double scale = areas * part.fraction();
+      for_each_point_of(part, [&](const PairPoint& own) {
+        PairPoint p;
+        p.weight = scale * own.weight;
+        part.x.to_triangle(own.x, p.x);
+        part.y.to_triangle(own.y, p.y);
+        f(static_cast<const PairPoint&>(p));
+      });
+    });
+  }
 
   /// Whether a rule of degree 2 is enough for triangles with edges of at most `longest_edge` at
   /// such a distance [m].
@@ -84,27 +92,26 @@ class PairQuadrature {
  private:
   struct Panel {
     Vec3 normal, centre;
-    double area, longest_edge, widest_angle;
+    double area, longest_edge, slenderness, widest_angle;
     double radius;  ///< of the corners about the centre
   };
-  /// How two triangles touch, and their corners such that those that they share come first.
-  struct Pairing {
-    Adjacency adjacency;
-    int x[3], y[3];
+  /// Two parts of triangles that are dealt with together.
+  struct Pair {
+    TriangleCell x, y;
+    int depth = 0;
   };
-  Pairing pair(int tx, int ty) const;
-  const std::vector<PairPoint>& touching_points(int tx, int ty, Adjacency adjacency,
-                                                KernelPart part) const;
-  std::optional<std::array<int, 2>> unsplit_rules(int tx, int ty, KernelPart part) const;
+  Adjacency adjacency(int tx, int ty) const;
+  Part touching_part(int tx, int ty, KernelPart kernel) const;
+  std::optional<std::array<int, 2>> unsplit_rules(int tx, int ty, KernelPart kernel) const;
   std::array<Vec3, 3> corners(int triangle) const;
-  int rule_at(double distance, double longest_edge, KernelPart part) const {
-    return part == KernelPart::static_part
+  int rule_at(double distance, double longest_edge, KernelPart kernel) const {
+    return kernel == KernelPart::static_part
                ? static_choice_.choose(distance / longest_edge, 0)
                : dynamic_choice_.choose(distance / longest_edge, wave_number_ * longest_edge);
   }
   void make_touching_rules();
   double longest_wave() const;
-  int touching_order(int tx, int ty, Adjacency adjacency, KernelPart part) const;
+  int touching_order(int tx, int ty, Adjacency adjacency, KernelPart kernel) const;
 
   const TriangleMesh& mesh_;
   RuleChoice static_choice_, dynamic_choice_;

@@ -12,13 +12,16 @@ class TriangleCell {
   /// The whole triangle with these corners.
   explicit TriangleCell(const std::array<Vec3, 3>& corners);
 
-  /// One half of it, 0 or 1: the longest edge is cut, so that slivers become triangles instead of
-  /// more slivers.
+  /// One half of it, 0 or 1: the longest edge is cut, which leaves fewer slivers of slivers than
+  /// other cuts.
   TriangleCell half(int index) const;
 
   bool is_whole() const { return part_ == 1; }
   double part() const { return part_; }             ///< of the triangle's area
   double longest_edge() const { return longest_; }  ///< [m]
+  /// The longest edge over the height on it.
+  double slenderness() const;
+  double widest_angle() const;
   const std::array<Vec3, 3>& corners() const { return corners_; }
 
   /// The place of barycentric coordinates in the cell.

@@ -64,10 +64,12 @@ double LowRankBuilder::squared_error_of_blocks(const Slab& slab,
 }
 
 double LowRankBuilder::choose_quantum(const Slab& slab,
-                                      const std::vector<MatrixView<float>>& matrices,
-                                      double error) {
+                                      const std::vector<MatrixView<float>>& matrices, double error,
+                                      bool checked) {
   constexpr double kFirstGuess = 9;  // quanta: error of an entry that needs to be known well
   constexpr int kTrials = 3;
+  constexpr double kFar = 3,
+                   kTooMuch = 2;  // errors jump where blocks change their number of layers
   constexpr std::size_t kFewBlocks = 12;
   const auto size = static_cast<double>(matrices[0].cols());
   const double entries = size * size * static_cast<double>(matrices.size());
@@ -76,12 +78,17 @@ double LowRankBuilder::choose_quantum(const Slab& slab,
   for (std::size_t b = 0; b < slab.blocks.size(); b += every)
     tried += 9.0 * slab.blocks[b].rows() * slab.blocks[b].columns() *
              static_cast<double>(matrices.size());
-  double quantum = kFirstGuess * error / std::sqrt(entries);
+  const auto error_with = [&](double quantum) {
+    return std::sqrt(squared_error_of_blocks(slab, matrices, quantum, every) / tried * entries);
+  };
+  double quantum = kFirstGuess * error / std::sqrt(entries), last = quantum;
   for (int trial = 0; trial < kTrials && quantum > 0; ++trial) {
-    const double found = squared_error_of_blocks(slab, matrices, quantum, every);
+    const double found = error_with(quantum);
     if (found <= 0) break;
-    quantum *= std::clamp(error / std::sqrt(found / tried * entries), 0.1, 10.0);
+    last = quantum;
+    quantum *= std::clamp(error / found, 0.1, 10.0);
   }
+  if (checked && quantum > kFar * last && error_with(quantum) > kTooMuch * error) quantum = last;
   return quantum > 0 ? quantum : 1;
 }
 

@@ -18,8 +18,9 @@ class LowRankBuilder : public FamilyBuilder<float> {
   const std::vector<Slab>& partition() const { return partition_; }
   /// The unit of coupling entries with which the Frobenius norm of the errors of the whole family
   /// comes to about `error`, by trial with some blocks of one slab: its rows of all matrices.
+  /// `checked`: a last step of the trials that goes far is looked at before it is made.
   static double choose_quantum(const Slab& slab, const std::vector<MatrixView<float>>& matrices,
-                               double error);
+                               double error, bool checked);
 
   /// The rows of the next slab.
   void add_rows(const std::vector<MatrixView<float>>& matrices) override;

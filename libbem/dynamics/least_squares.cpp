@@ -15,7 +15,9 @@ Eigen::MatrixXd transposed_product(const ElasticSystem& system, const Eigen::Mat
   if (model.is_iterative())
     return multiply_complex_transposed(*model.initial_h[0], b.cast<Complex>()).real();
   const auto apply = [&](const Eigen::MatrixXd& x) -> Eigen::MatrixXd {
-    return system.solver(0).solve_transposed(x.cast<Complex>()).real();
+    Eigen::MatrixXcd u = system.solver(0).solve_transposed(x.cast<Complex>());
+    if (system.frame_balance()) u += system.frame_balance()->moved(0, x.cast<Complex>());
+    return u.real();
   };
   const Eigen::VectorXd sizes = b.colwise().norm();
   Eigen::MatrixXd x = b * sizes.cwiseInverse().asDiagonal();

@@ -69,8 +69,9 @@ struct BodyModel {
   std::vector<Eigen::MatrixXd> centrifugal;
   std::vector<Eigen::MatrixXcd> initial_centrifugal;
   /// Either H_0^{-1} and H_0^{-1} G_0, or H_0 and G_0, which are solved with in every step; the
-  /// others are empty. Of a quasi-static model H_0 stands for H(0) - [D(0) Q(0)] Pi, see
-  /// docs/method.md.
+  /// others are empty. Of the inertial form H_0^{-1} is without rigid motions: H_0^{-1} b solves
+  /// H_0 u = b - F_0 z for some z, F_0 = [D_0 Q_0]. Of a quasi-static model H_0 stands for H(0) -
+  /// [D(0) Q(0)] Pi, see docs/method.md.
   std::vector<std::unique_ptr<MatrixFamily>> inverse, traction_response;
   std::vector<std::unique_ptr<MatrixFamily>> initial_h, initial_g;
   /// The static equation H(0) u = b + D(0) a' + Q(0) alpha can be solved for u only with the

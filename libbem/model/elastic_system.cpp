@@ -8,15 +8,17 @@ ElasticSystem::ElasticSystem(const BodyModel& model, double window)
     : model_(model), window_(window), scheme_(model.discretisation.scheme.windowed(window)) {
   const int initial = static_cast<int>(scheme().initial_components().size());
   std::vector<Eigen::MatrixXcd> response;
+  if (model.stiffness) {
+    frame_balance_.emplace(model);
+    rigid_modes_ = orthonormal_rigid_modes(model.geometry.nodes);
+  }
   for (int i = 0; i < initial; ++i) {
     solvers_.push_back(make_initial_solver(model, i));
-    response.push_back(solvers_.back()->solve(model.initial_body_force[i]));
+    response.push_back(frame_balance_ ? frame_balance_->response(i)
+                                      : solvers_.back()->solve(model.initial_body_force[i]));
   }
   projection_ = RigidProjection(rigid_part(model.geometry.nodes), std::move(response));
   body_force_.lags = model.body_force;
-  if (!model.stiffness) return;
-  frame_balance_.emplace(model);
-  rigid_modes_ = orthonormal_rigid_modes(model.geometry.nodes);
 }
 
 LagHistory ElasticSystem::make_history(Eigen::Index inputs) const {

@@ -28,6 +28,15 @@ class FrameBalance {
   const Eigen::MatrixXcd& body_force(int component) const {
     return model_.initial_body_force[component];
   }
+  /// H_0^{-1} F_0 = -R/sigma, 3N x 6.
+  Eigen::MatrixXcd response(int component) const {
+    return -1.0 / sigma_[component] * rigid_.cast<Complex>();
+  }
+  /// What forces b (3N x n) move the body rigidly: the part of H_0^{-1} b that a stored inverse
+  /// lacks.
+  Eigen::MatrixXcd moved(int component, const Eigen::MatrixXcd& b) const {
+    return response(component) * (inverse_[component].transpose() * moments(b));
+  }
   /// z (6 x n) from F_0^T u and R^T b.
   Eigen::MatrixXcd accelerations(int component, const Eigen::MatrixXcd& inertia,
                                  const Eigen::MatrixXcd& moments) const {

@@ -64,19 +64,70 @@ Lu<T> factorise(DenseMatrix<T>&& h, const Progress& progress) {
   return Lu<T>(std::move(h));
 }
 
+/// What forces do to a body besides moving it: with F = F_0, B = H_0^{-1} F of the inertial form
+///   H_0^{-1} - B (F^T B)^{-1} B^T
+/// gives displacements with F^T u = 0 and nothing for F itself. Rigid motion, which the projection
+/// takes out of solutions, is by far the largest part of H_0^{-1} where steps are long for waves.
+template <class T>
+class RigidPart {
+ public:
+  /// `response`: B.
+  RigidPart(const DenseMatrix<T>& forces, DenseMatrix<T> response)
+      : forces_(forces),
+        response_(std::move(response)),
+        inverse_((forces_.transpose() * response_).inverse()) {}
+
+  /// Of H_0^{-1}.
+  void remove_from_inverse(DenseMatrix<T>& inverse) const {
+    inverse.noalias() -= response_ * (inverse_ * response_.transpose());
+  }
+  /// Of H_0^{-1} times something.
+  void remove_from_solutions(DenseMatrix<T>& solutions) const {
+    const DenseMatrix<T> moved = inverse_ * (forces_.transpose() * solutions);
+    solutions.noalias() -= response_ * moved;
+  }
+
+ private:
+  DenseMatrix<T> forces_, response_;
+  Eigen::Matrix<T, 6, 6> inverse_;
+};
+
+/// F_0 of the component whose matrices come next.
+template <class T>
+DenseMatrix<T> next_body_force(const BodyModel& model) {
+  const Eigen::MatrixXcd& force = model.initial_body_force[model.inverse.size()];
+  if constexpr (std::is_same_v<T, Complex>)
+    return force;
+  else
+    return force.real();
+}
+
+/// By a factorisation of H_0; nothing but in the inertial form.
+template <class T>
+std::optional<RigidPart<T>> rigid_part_of(const BodyModel& model, const Lu<T>& lu) {
+  if (!model.stiffness) return std::nullopt;
+  const DenseMatrix<T> forces = next_body_force<T>(model);
+  DenseMatrix<T> response = forces;
+  lu.solve(response);
+  return RigidPart<T>(forces, std::move(response));
+}
+
 template <class T>
 void invert_dense(BodyModel& model, DenseMatrix<T>&& h, DenseMatrix<T>* g,
                   const CodecOptions& codec, const Progress& progress) {
   ModelReport::CodecErrors& errors = model.report.codec_errors;
   Lu<T> lu = factorise(std::move(h), progress);
+  const std::optional<RigidPart<T>> rigid = rigid_part_of(model, lu);
   if (g) {
     if (progress) progress("traction response", 0);
     lu.solve(*g);
+    if (rigid) rigid->remove_from_solutions(*g);
     model.traction_response.push_back(store(model, *g, codec, errors.traction_response));
     g->resize(0, 0);
   }
-  model.inverse.push_back(
-      store(model, invert(model, std::move(lu), progress), codec, errors.inverse));
+  DenseMatrix<T> inverse = invert(model, std::move(lu), progress);
+  if (rigid) rigid->remove_from_inverse(inverse);
+  model.inverse.push_back(store(model, inverse, codec, errors.inverse));
 }
 
 /// Rows of a matrix as single precision parts: real, and imaginary of a complex one.
@@ -203,7 +254,10 @@ double inverse_scale(const DenseMatrix<T>& inverse) {
 template <class T>
 void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, MatrixForm form,
                        const LowRankFamily* g, double tolerance, const Progress& progress) {
-  const DenseMatrix<T> inverse = invert(model, factorise(std::move(h), progress), progress);
+  Lu<T> lu = factorise(std::move(h), progress);
+  const std::optional<RigidPart<T>> rigid = rigid_part_of(model, lu);
+  DenseMatrix<T> inverse = invert(model, std::move(lu), progress);
+  if (rigid) rigid->remove_from_inverse(inverse);
   const std::vector<Slab> partition = make_partition(model.geometry.nodes.vertices, {});
   const auto rows_of = [&](const Slab& slab) {
     return parts(inverse, 3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin));
@@ -212,7 +266,8 @@ void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, MatrixForm form,
     std::vector<Slab> slabs = with_form(partition, of);
     const Slab& sample = typical_slab(slabs, of);
     const std::vector<FloatMatrix> rows = matrix_rows(sample);
-    const double quantum = LowRankBuilder::choose_quantum(sample, views(rows), tolerance * norm);
+    const double quantum = LowRankBuilder::choose_quantum(sample, views(rows), tolerance * norm,
+                                                          model.stiffness != nullptr);
     return LowRankBuilder(std::move(slabs), static_cast<int>(rows.size()), quantum, of);
   };
   LowRankBuilder inverse_builder = builder(form, inverse_scale(inverse), rows_of);

@@ -30,7 +30,8 @@ struct InitialMatrix {
 
 /// Adds H_0^{-1} and, from the uncompressed G_0, H_0^{-1} G_0 of a component to the model, in the
 /// precision of the model or by a codec that make_direct_builder() knows; `g` may be null. Notes
-/// the condition number and the codec's errors.
+/// the condition number and the codec's errors. In the inertial form both are without the rigid
+/// motions that forces cause.
 void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const CodecOptions& codec,
                   const Progress& progress);
 

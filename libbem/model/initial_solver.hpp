@@ -4,7 +4,8 @@
 
 namespace bem {
 
-/// Solves H_0 u = b for one initial component of a model, by columns. The model must outlive it.
+/// Solves H_0 u = b for one initial component of a model, by columns; of the inertial form up to
+/// rigid motions. The model must outlive it.
 class InitialSolver {
  public:
   virtual ~InitialSolver() = default;

@@ -233,6 +233,7 @@ class CompressedBuilders {
       : slabs_(slabs),
         of_h_(with_form(slabs, assembler.form())),
         form_(assembler.form()),
+        inertial_(assembler.is_inertial()),
         tolerance_(tolerance) {
     const Slab& typical = typical_slab(slabs_, form_);
     assembler.assemble(typical.row_begin, typical.row_end, sample_);
@@ -279,13 +280,15 @@ class CompressedBuilders {
     const std::vector<Slab>& slabs = form == MatrixForm::symmetric ? of_h_ : slabs_;
     return std::make_unique<LowRankBuilder>(
         slabs, static_cast<int>(sample.size()),
-        LowRankBuilder::choose_quantum(typical_slab(slabs, form_), views(sample), tolerance * norm),
+        LowRankBuilder::choose_quantum(typical_slab(slabs, form_), views(sample), tolerance * norm,
+                                       inertial_),
         form);
   }
 
   const std::vector<Slab>& slabs_;
   std::vector<Slab> of_h_;
   MatrixForm form_;
+  bool inertial_;  ///< if not, archives stay as they have always been
   double tolerance_;
   double g_part_ = 1;
   SlabAssembler<float>::Norms norms_;

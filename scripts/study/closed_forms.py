@@ -74,6 +74,11 @@ class Sphere:
     def breathing_period(self):
         return 2 * math.pi * self.RADIUS / (self.c1 * self.breathing_roots(1)[0])
 
+    def torsion(self, overtone=0):
+        """Frequency [1/s] of the free mode T2 and its overtones: (n - 1) j_n(x) = x j_(n+1)(x), x = w a/c2."""
+        root = (2.5011, 7.1360)[overtone]
+        return bisect(lambda x: bessel(2, x) - x * bessel(3, x), root - 0.1, root + 0.1) * self.c2 / self.RADIUS
+
     def quadrupole(self, overtone=0):
         """Frequency [1/s] of the free mode S2 and its overtones (Lamb): T11 T43 = T41 T13 with n = 2,
         x = w a/c2, xi = w a/c1."""
@@ -88,6 +93,15 @@ class Sphere:
         values = np.array([f(x) for x in grid])
         start = grid[:-1][values[:-1] * values[1:] < 0][overtone]
         return bisect(f, start, start + 0.05) * self.c2 / self.RADIUS
+
+
+class Plate:
+    """1 x 1 x 0.05 m, 1000 kg/m^3, shear modulus 1e7 Pa, nu 0.3, free. `TWIST` and `SADDLE` are the angular frequencies
+    [1/s] of its first two modes, like x y and x^2 - y^2, of fine volume finite element meshes (thin plates: 0.3291 and
+    0.478 c2/L)."""
+    SIDE, THICKNESS, DENSITY, SHEAR, POISSON = 1.0, 0.05, 1000.0, 1e7, 0.3
+    SPEED = math.sqrt(SHEAR / DENSITY)
+    TWIST, SADDLE = 0.32202 * SPEED / SIDE, 0.47428 * SPEED / SIDE
 
 
 class Beam:

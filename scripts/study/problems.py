@@ -7,10 +7,11 @@ import typing
 import numpy as np
 
 from . import measures, meshes
-from .closed_forms import Beam, Drop, Hertz, Rod, Slide, Sphere, Tumbling
+from .closed_forms import Beam, Drop, Hertz, Plate, Rod, Slide, Sphere, Tumbling
 from .settings import BASE, COLLOCATION, Plan, Setting, in_both
 
 ROD, SPHERE, BEAM, TUMBLING, SLIDE, DROP, HERTZ = Rod(), Sphere(), Beam(), Tumbling(), Slide(), Drop(), Hertz()
+PLATE = Plate()
 SOFT, HARD = Sphere(1e6, 0.0), Sphere(3e5, 0.45)  # the sphere with other Poisson ratios
 
 
@@ -114,13 +115,25 @@ class FreeMode:
         """Of the mode that a run takes: the pulse, three to fit and some to spare."""
         return self.pulse / self.period + 3.5
 
-    def measure(self, run):
-        """Error of the free motion exp((i w - d) t) over two periods, relative to its amplitude."""
+    def series(self, run):
+        """What is observed after the pulse, and the time step."""
         rest = (run.positions[0] - run.translations[0]) @ run.rotations[0]
         body = np.einsum("nji,nkj->nki", run.rotations, run.positions - run.translations[:, None, :])
         dt = run.times[1] - run.times[0]
-        series = np.einsum("nki,ki->n", body - rest, self.weights(rest))
-        series = series[int(math.ceil(self.pulse / dt)) + 1:][:3 * run.steps]
+        return np.einsum("nki,ki->n", body - rest, self.weights(rest))[int(math.ceil(self.pulse / dt)) + 1:], dt
+
+    def measure_long(self, run):
+        """Energy left after a hundred periods: of vibrations over three periods, then and at first."""
+        series, _ = self.series(run)
+        ends = [series[k * run.steps:(k + 3) * run.steps] for k in (0, 100)]
+        energies = [np.mean((values - np.mean(values))**2) for values in ends]
+        return {"error": abs(1 - energies[1] / energies[0]), "energy_100": float(energies[1] / energies[0]),
+                "series": series[::run.steps].tolist()}
+
+    def measure(self, run):
+        """Error of the free motion exp((i w - d) t) over two periods, relative to its amplitude."""
+        series, dt = self.series(run)
+        series = series[:3 * run.steps]
         z = measures.factor_of_ringing(series)
         t = np.arange(2 * run.steps + 1)
         off = np.abs(np.exp((np.log(z) - 1j * self.frequency * dt) * t) - 1)
@@ -138,6 +151,21 @@ def bending_weights(rest):
     return np.stack([0 * rest[:, 0], 0 * rest[:, 0], 12 * rest[:, 0]**2 - 1], axis=1)
 
 
+def torsion_weights(rest):
+    return rest[:, 2:] * np.stack([-rest[:, 1], rest[:, 0], 0 * rest[:, 0]], axis=1)
+
+
+def twist_weights(rest):
+    return np.stack([0 * rest[:, 0], 0 * rest[:, 0], rest[:, 0] * rest[:, 1]], axis=1)
+
+
+def saddle_weights(rest):
+    return np.stack([0 * rest[:, 0], 0 * rest[:, 0], rest[:, 0]**2 - rest[:, 1]**2], axis=1)
+
+
+TORSION = FreeMode(SPHERE.torsion(), 4 * math.pi / SPHERE.torsion(1), torsion_weights)
+TWIST = FreeMode(PLATE.TWIST, 0.8 * math.pi / PLATE.TWIST, twist_weights)  # the next such modes are five and three
+SADDLE = FreeMode(PLATE.SADDLE, 1.2 * math.pi / PLATE.SADDLE, saddle_weights)  # times as high
 QUADRUPOLE = FreeMode(SPHERE.quadrupole(), 4 * math.pi / SPHERE.quadrupole(1), quadrupole_weights)
 BENDING = FreeMode(2 * math.pi * BEAM.FREE[0], 2 / BEAM.FREE[1], bending_weights)
 
@@ -147,6 +175,28 @@ def pulled_poles():
     return {"body": {"tractions": [
         {"select": {"box": {"min": [-9, -9, low], "max": [9, 9, high]}}, "pressure": -1000,
          "profile": hann(QUADRUPOLE.pulse)} for low, high in ((cap, 9), (-9, -cap))]}}
+
+
+def turned_halves():
+    """The upper half of the sphere is turned about z, the lower one against it."""
+    low, high = 0.3 * SPHERE.RADIUS, 9
+    loads = []
+    for x, z in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
+        box = {"min": [min(x * low, x * high), -9, min(z * low, z * high)], "max": [max(x * low, x * high), 9, max(z * low, z * high)]}
+        loads.append({"select": {"box": box}, "traction": [0, 1000 * x * z, 0], "profile": hann(TORSION.pulse)})
+    return {"body": {"tractions": loads}}
+
+
+def bent_plate(mode, parts):
+    """Forces on parts of its upper face, each (x from, to, y from, to, sign)."""
+    top = PLATE.THICKNESS / 2
+    return {"body": {"tractions": [
+        {"select": {"box": {"min": [x0, y0, top - 1e-4], "max": [x1, y1, 9]}, "normal": [0, 0, 1], "normal_tolerance_deg": 10},
+         "traction": [0, 0, 100 * sign], "profile": hann(mode.pulse)} for x0, x1, y0, y1, sign in parts]}}
+
+
+QUADRANTS = ((0.09, 9, 0.09, 9, 1), (-9, -0.09, -9, -0.09, 1), (0.09, 9, -9, -0.09, -1), (-9, -0.09, 0.09, 9, -1))
+SIDES = ((0.29, 9, -0.11, 0.11, 1), (-9, -0.29, -0.11, 0.11, 1), (-0.11, 0.11, 0.29, 9, -1), (-0.11, 0.11, -9, -0.29, -1))
 
 
 def bent_beam():
@@ -253,7 +303,7 @@ PROBLEMS = {
     "mode": Problem(
         "Sphere, free mode S2", QUADRUPOLE.period, "f (10 f^2 + 2 nodes)", "amplitude",
         lambda f: meshes.geodesic_sphere(f, SPHERE.RADIUS), material(SPHERE.DENSITY, SPHERE.shear, SPHERE.poisson),
-        {"mode": (pulled_poles(), QUADRUPOLE.measure)},
+        {"mode": (pulled_poles(), QUADRUPOLE.measure), "torsion": (turned_halves(), TORSION.measure)},
         Plan((((2,), (10, 20, 40)), ((4,), (10, 20))), {"window": (2, 20), "history": (2, 20)},
              (*in_both(Setting(6, 10), Setting(6, 20)), damped(2, 20, "5.9e-5")), most_steps={"radau3": 20}),
         (Setting(2, 10), Setting(2, 10, "bdf1")), periods=QUADRUPOLE.periods()),
@@ -263,6 +313,15 @@ PROBLEMS = {
         Plan((((2,), (20, 40)), ((4,), (20,))), {"window": (4, 40)}, in_both(Setting(4, 40), Setting(6, 20), Setting(6, 40)),
              most_steps={"radau3": 20}),
         (Setting(1, 20),), periods=BENDING.periods()),
+    "plate": Problem(
+        "Free plate, its first two modes", TWIST.period, "cells along a fifth of a side", "amplitude",
+        lambda n: box((PLATE.SIDE, PLATE.SIDE, PLATE.THICKNESS), (5 * n, 5 * n, 1)), material(PLATE.DENSITY, PLATE.SHEAR, PLATE.POISSON),
+        {"plate-twist": (bent_plate(TWIST, QUADRANTS), TWIST.measure), "plate-saddle": (bent_plate(SADDLE, SIDES), SADDLE.measure)},
+        Plan((), more=in_both(Setting(1, 40), Setting(2, 40))), (Setting(1, 20),), periods=4),
+    "ringing": Problem(
+        "Beam that nothing holds, a hundred periods", BENDING.period, "cells across", "energy",
+        beam_shape, material(BEAM.DENSITY, BEAM.SHEAR, BEAM.POISSON), {"ringing": (bent_beam(), BENDING.measure_long)},
+        Plan((), more=(Setting(2, 40), Setting(2, 40, "radau3"))), (Setting(1, 20),), periods=BENDING.pulse / BENDING.period + 104),
     "beam": Problem(
         "Beam held at one end, sudden gravity", BEAM.period(), "cells across", "deflection at rest",
         beam_shape, material(BEAM.DENSITY, BEAM.SHEAR, BEAM.POISSON),

@@ -10,7 +10,8 @@ from .settings import BASE, COLLOCATION, DISCRETISATIONS, GALERKIN, Setting
 SCENES = {scene: name for name, problem in PROBLEMS.items() for scene in problem.scenes}
 TITLES = {"rod-fixed": "Rod, one end fixed", "rod-free": "Rod, free", "sphere": "Sphere under pressure",
           "sphere-0": "Sphere under pressure, ν = 0", "sphere-45": "Sphere under pressure, ν = 0.45",
-          "mode": "Free mode S2 of a sphere", "beam": "Held beam under gravity", "beam-free": "Free beam, first bending mode", "tumble": "Tumbling box",
+          "mode": "Free mode S2 of a sphere", "beam": "Held beam under gravity", "beam-free": "Free beam, first bending mode", "torsion": "Free mode T2 of a sphere",
+          "plate-twist": "Free plate, mode x y", "plate-saddle": "Free plate, mode x² - y²", "ringing": "Free beam, a hundred periods", "tumble": "Tumbling box",
           "slide": "Sliding block", "drop": "Flat drop of a cube", "ball": "Ball on a floor"}
 
 

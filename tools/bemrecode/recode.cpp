@@ -59,8 +59,8 @@ std::unique_ptr<MatrixFamily> recode(const DenseFamily<float>& family, MatrixFor
   if (options.codec == Codec::lowrank) {
     slabs = with_form(make_partition(nodes, {}), form);
     const Slab& sample = typical_slab(slabs, form);
-    const double quantum = LowRankBuilder::choose_quantum(sample, Rows(family, sample).views(),
-                                                          options.tolerance * norm_of(family));
+    const double quantum = LowRankBuilder::choose_quantum(
+        sample, Rows(family, sample).views(), options.tolerance * norm_of(family), true);
     builder = std::make_unique<LowRankBuilder>(slabs, family.count(), quantum, form);
   } else {
     const int count = static_cast<int>(nodes.size());

@@ -1,6 +1,5 @@
-#include "assembly/triangle_cell.hpp"
-
 #include "assembly/edge_reconstruction.hpp"
+#include "assembly/triangle_cell.hpp"
 
 #include <catch2/catch.hpp>
 

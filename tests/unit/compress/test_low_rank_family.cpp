@@ -21,7 +21,7 @@ struct Example : MatrixExample {
     const Slab& middle = partition[partition.size() / 2];
     LowRankBuilder builder(
         partition, kMatrices,
-        LowRankBuilder::choose_quantum(middle, rows_of(middle), tolerance * norm), form);
+        LowRankBuilder::choose_quantum(middle, rows_of(middle), tolerance * norm, true), form);
     for (const Slab& slab : partition) builder.add_rows(rows_of(slab));
     if (error) *error = builder.error();
     return builder.finish();

@@ -76,6 +76,9 @@ TEST_CASE(
     for (int i = 0; i < static_cast<int>(model.initial_body_force.size()); ++i) {
       const Eigen::MatrixXcd loads = Eigen::MatrixXd::Random(n, 2).cast<Complex>();
       Eigen::MatrixXcd u = system.solver(i).solve(loads);
+      CHECK((balance.body_force(i).transpose() * u).norm() <
+            1e-10 * balance.body_force(i).norm() * u.norm());
+      u += balance.moved(i, loads);
       const Eigen::MatrixXcd removed = system.projection().project(i, u);
       const auto z = [&](const Eigen::MatrixXcd& displacement) -> Eigen::MatrixXcd {
         return balance.accelerations(i, balance.body_force(i).transpose() * displacement,

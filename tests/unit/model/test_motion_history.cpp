@@ -77,7 +77,9 @@ TEST_CASE("a step of the inertial form satisfies D(0) u + sum of Z a = frame") {
     return a;
   };
   const Eigen::MatrixXd stiffness = full_matrix(*model.stiffness, 0);
-  const Eigen::MatrixXd initial = full_matrix(*model.inverse[0], 0).inverse();
+  const Eigen::MatrixXd moved =
+      system.frame_balance()->moved(0, Eigen::MatrixXcd::Identity(size, size)).real();
+  const Eigen::MatrixXd initial = (full_matrix(*model.inverse[0], 0) + moved).inverse();
   const Eigen::MatrixXd inertia = (initial - stiffness) * (dt * dt / (root * root));
   Eigen::VectorXd forces = inertia * acceleration(0);
   for (int k = 1; k <= history; ++k) forces += full_matrix(*model.h, k - 1) * acceleration(k);
