@@ -73,11 +73,11 @@ class Galerkin(SimulationCase):
         for codec in (("lowrank", "--codec-tol", "1e-3"), ("haar", "--codec-tol", "1e-2")):
             self.archive("link.bem", "--codec", *codec, poisson=0.3, dt=0.002)
             joints = [{"type": "point", "a": {"body": "link", "point": p}} for p in ([-0.1, 0, 0], [0.1, 0, 0], [0, 0.025, 0])]
-            (x,), _ = self.run_of({"name": "link", "archive": "link.bem"}, steps=6000, dt=0.002, joints=joints,
+            (x,), _ = self.run_of({"name": "link", "archive": "link.bem"}, steps=3000, dt=0.002, joints=joints,
                                   gravity=[0, -0.9, 0.3], output={"every": 50})
             swing = np.abs(x - x[0]).max(axis=(1, 2))  # it rocks on its hinges
-            self.assertGreater(swing[:40].max(), 3e-4)
-            self.assertLess(swing.max(), 1.3 * swing[:40].max(), codec)
+            self.assertGreater(swing[:30].max(), 3e-4)
+            self.assertLess(swing.max(), 1.3 * swing[:30].max(), codec)
 
     def test_schemes_and_materials(self):
         """A load that sets in suddenly: vibrations between 0 and 2 about the static stretch, which decay or stay."""
