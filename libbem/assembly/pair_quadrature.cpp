@@ -212,11 +212,11 @@ void PairQuadrature::for_each_part(int tx, int ty, KernelPart kernel,
     }
     f(part);
   };
-  const Pair whole{TriangleCell(corners(tx)), TriangleCell(corners(ty))};
   if (adjacency(tx, ty) != Adjacency::none) {
     give(touching_part(tx, ty, kernel));
     return;
   }
+  const Pair whole{TriangleCell(corners(tx)), TriangleCell(corners(ty))};
   if (const auto rules = unsplit_rules(tx, ty, kernel)) {
     give({whole.x, whole.y, (*rules)[0], (*rules)[1]});
     return;

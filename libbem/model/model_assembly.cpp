@@ -238,7 +238,7 @@ class CompressedBuilders {
     const Slab& typical = typical_slab(slabs_, form_);
     assembler.assemble(typical.row_begin, typical.row_end, sample_);
     norms_ = assembler.estimate_norms();
-    if (!assembler.is_inertial() || norms_.initial_g == 0) return;
+    if (!inertial_ || norms_.initial_g == 0) return;
     // what tractions do at once, by G_0, is most of what they do
     g_part_ = norms_.g / std::hypot(norms_.g, norms_.initial_g);
     norms_.g /= g_part_;

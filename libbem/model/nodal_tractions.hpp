@@ -85,8 +85,8 @@ class NodalTractions {
   std::vector<int> columns_;  ///< unknowns of the nodes, ascending
   std::shared_ptr<const MatrixFamily> lags_;
   std::vector<std::unique_ptr<TractionResponse>> response_;
-  /// 6 x 3N, by initial component: z, and the rigid part that the projection takes out, which is
-  /// the same but for errors of stored matrices.
+  /// 6 x 3N, by initial component: z, and the rigid part of the responses that the projection takes
+  /// out. Only in the inertial form, whose responses are stored without rigid motion, they differ.
   std::vector<Eigen::MatrixXcd> acceleration_, removed_;
 };
 
