@@ -10,29 +10,9 @@
 namespace bem {
 namespace {
 
-constexpr int kDeepest = 24;  // times that triangles of a pair are halved
-constexpr double kObtuse = 110 * kPi / 180;
-constexpr int kMoreForObtuse = 3;  // Gauss points per direction
-/// Gauss points per direction that static parts need more, whose errors grow with the longest edge
-/// over the height on it.
-struct SlenderLevel {
-  double from;
-  int more;
-};
-constexpr SlenderLevel kSlender[] = {{4, 4}, {8, 6}, {16, 12}};
-/// Cosines of the angle of the normals at a shared edge from which on it counts as sharp: for the
-/// dynamic parts, whose kernels are not symmetric about it, and for the static ones.
-constexpr double kFolded = 0.8, kSharp = -0.2;
-constexpr int kDynamicForEdges = 4, kStaticForEdges = 4, kMostForWaves = 4;
-constexpr int kStaticRadial = 3, kDynamicRadial = 4;  // exact for static kernels, for Z(0)
-
-/// Gauss points per direction of touching pairs for an error relative to the largest entry.
-int static_order(double tolerance) {
-  return std::clamp(static_cast<int>(std::ceil(1 - std::log10(tolerance))), 4, 14);
-}
-int dynamic_order(double tolerance) {
-  return std::clamp(static_cast<int>(std::ceil(1 - 0.5 * std::log10(tolerance))), 3, 12);
-}
+constexpr int kDeepest = 24;                      // times that triangles of a pair are halved
+constexpr int kStaticAway = 3, kDynamicAway = 4;  // exact for static kernels, for Z(0)
+constexpr int kStaticAlong = 2, kDynamicAlong = 4, kMostForWaves = 4;
 
 double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
@@ -75,48 +55,22 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
     : mesh_(mesh),
       static_choice_(1000 * tolerance),
       dynamic_choice_(3000 * tolerance),
-      wave_number_(wave_number),
-      static_order_(static_order(tolerance)),
-      dynamic_order_(dynamic_order(tolerance)) {
+      wave_number_(wave_number) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& triangle = mesh.triangles[t];
     const auto places = corners(static_cast<int>(t));
     const TriangleCell cell(places);
-    Panel p{triangle_normal(mesh, triangle),
-            (places[0] + places[1] + places[2]) / 3,
-            triangle_area(mesh, triangle),
-            cell.longest_edge(),
-            cell.slenderness(),
-            cell.widest_angle(),
-            0};
+    Panel p{triangle_normal(mesh, triangle), (places[0] + places[1] + places[2]) / 3,
+            triangle_area(mesh, triangle), cell.longest_edge(), 0};
     for (const Vec3& x : places) p.radius = std::max(p.radius, (x - p.centre).norm());
     panels_.push_back(p);
   }
   for (int x = 0; x < kTriangleRuleCount; ++x)
     for (int y = 0; y < kTriangleRuleCount; ++y)
       products_[x][y] = product_rule(triangle_rules()[x], triangle_rules()[y]);
-  make_touching_rules();
-}
-
-/// Those that pairs of this mesh need.
-void PairQuadrature::make_touching_rules() {
-  const int radial =
-      kDynamicRadial + std::min(kMostForWaves, static_cast<int>(0.4 * longest_wave()));
-  const auto need = [&](int tx, int ty) {
-    for (const KernelPart kernel : {KernelPart::static_part, KernelPart::dynamic_part}) {
-      const bool is_static = kernel == KernelPart::static_part;
-      const Adjacency how = adjacency(tx, ty);
-      const int order = touching_order(tx, ty, how, kernel);
-      std::vector<PairPoint>& rule = (is_static ? static_rules_ : dynamic_rules_)[{how, order}];
-      if (rule.empty()) rule = touching_rule(how, order, is_static ? kStaticRadial : radial);
-    }
-  };
-  std::vector<std::vector<int>> fans(mesh_.vertices.size());
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-    for (int v : mesh_.triangles[t]) fans[v].push_back(static_cast<int>(t));
-  for (const std::vector<int>& fan : fans)
-    for (int tx : fan)
-      for (int ty : fan) need(tx, ty);
+  const int away = kDynamicAway + std::min(kMostForWaves, static_cast<int>(0.4 * longest_wave()));
+  static_touching_ = {kStaticAway, kStaticAlong, tolerance};
+  dynamic_touching_ = {away, kDynamicAlong, std::sqrt(tolerance)};
 }
 
 bool PairQuadrature::midpoints_suffice(double distance, double longest_edge,
@@ -139,26 +93,9 @@ Adjacency PairQuadrature::adjacency(int tx, int ty) const {
   return static_cast<Adjacency>(shared);
 }
 
-int PairQuadrature::touching_order(int tx, int ty, Adjacency adjacency, KernelPart kernel) const {
-  const bool is_static = kernel == KernelPart::static_part;
-  int order = is_static ? static_order_ : dynamic_order_;
-  const Panel &x = panels_[tx], &y = panels_[ty];
-  const double slender = std::max(x.slenderness, y.slenderness);
-  if (is_static && slender > kSlender[0].from) {
-    int more = 0;
-    for (const auto& level : kSlender)
-      if (slender > level.from) more = level.more;
-    order += more;
-  } else if (std::max(x.widest_angle, y.widest_angle) > kObtuse) {
-    order += kMoreForObtuse;
-  }
-  if (adjacency == Adjacency::edge && x.normal.dot(y.normal) < (is_static ? kSharp : kFolded))
-    order += is_static ? kStaticForEdges : kDynamicForEdges;
-  return order;
-}
-
 /// Corners that the triangles share come first.
-PairQuadrature::Part PairQuadrature::touching_part(int tx, int ty, KernelPart kernel) const {
+PairQuadrature::Part PairQuadrature::touching_part(int tx, int ty, KernelPart kernel,
+                                                   std::vector<PairPoint>& points) const {
   const Triangle &a = mesh_.triangles[tx], &b = mesh_.triangles[ty];
   Part part{TriangleCell(corners(tx)), TriangleCell(corners(ty))};
   int shared = 0, rest_x = 3, rest_y = 3;
@@ -173,9 +110,15 @@ PairQuadrature::Part PairQuadrature::touching_part(int tx, int ty, KernelPart ke
   }
   for (int j = 0; j < 3; ++j)
     if (std::find(a.begin(), a.end(), b[j]) == a.end()) part.corner_y[--rest_y] = j;
-  const auto adjacency = static_cast<Adjacency>(shared);
-  const Rules& rules = kernel == KernelPart::static_part ? static_rules_ : dynamic_rules_;
-  part.touching = &rules.at({adjacency, touching_order(tx, ty, adjacency, kernel)});
+  TouchingTriangles pair;
+  pair.adjacency = static_cast<Adjacency>(shared);
+  for (int k = 0; k < 3; ++k) {
+    pair.x[k] = part.x.corners()[part.corner_x[k]];
+    pair.y[k] = part.y.corners()[part.corner_y[k]];
+  }
+  points =
+      touching_rule(pair, kernel == KernelPart::static_part ? static_touching_ : dynamic_touching_);
+  part.touching = &points;
   return part;
 }
 
@@ -213,7 +156,8 @@ void PairQuadrature::for_each_part(int tx, int ty, KernelPart kernel,
     f(part);
   };
   if (adjacency(tx, ty) != Adjacency::none) {
-    give(touching_part(tx, ty, kernel));
+    std::vector<PairPoint> points;
+    give(touching_part(tx, ty, kernel, points));
     return;
   }
   const Pair whole{TriangleCell(corners(tx)), TriangleCell(corners(ty))};

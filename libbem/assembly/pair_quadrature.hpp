@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <optional>
 
 namespace bem {
@@ -92,7 +91,7 @@ class PairQuadrature {
  private:
   struct Panel {
     Vec3 normal, centre;
-    double area, longest_edge, slenderness, widest_angle;
+    double area, longest_edge;
     double radius;  ///< of the corners about the centre
   };
   /// Two parts of triangles that are dealt with together.
@@ -101,7 +100,7 @@ class PairQuadrature {
     int depth = 0;
   };
   Adjacency adjacency(int tx, int ty) const;
-  Part touching_part(int tx, int ty, KernelPart kernel) const;
+  Part touching_part(int tx, int ty, KernelPart kernel, std::vector<PairPoint>& points) const;
   std::optional<std::array<int, 2>> unsplit_rules(int tx, int ty, KernelPart kernel) const;
   std::array<Vec3, 3> corners(int triangle) const;
   int rule_at(double distance, double longest_edge, KernelPart kernel) const {
@@ -109,17 +108,13 @@ class PairQuadrature {
                ? static_choice_.choose(distance / longest_edge, 0)
                : dynamic_choice_.choose(distance / longest_edge, wave_number_ * longest_edge);
   }
-  void make_touching_rules();
   double longest_wave() const;
-  int touching_order(int tx, int ty, Adjacency adjacency, KernelPart kernel) const;
 
   const TriangleMesh& mesh_;
   RuleChoice static_choice_, dynamic_choice_;
   double wave_number_;
-  int static_order_, dynamic_order_;
   std::vector<Panel> panels_;
-  using Rules = std::map<std::pair<Adjacency, int>, std::vector<PairPoint>>;
-  Rules static_rules_, dynamic_rules_;
+  TouchingAccuracy static_touching_, dynamic_touching_;
   /// Products of triangle rules, [rule of x][rule of y].
   std::vector<PairPoint> products_[kTriangleRuleCount][kTriangleRuleCount];
 };

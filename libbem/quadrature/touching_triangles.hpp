@@ -1,5 +1,8 @@
 #pragma once
 
+#include "base/types.hpp"
+
+#include <array>
 #include <vector>
 
 namespace bem {
@@ -13,12 +16,29 @@ struct PairPoint {
   double x[3], y[3], weight;
 };
 
-/// Quadrature for kernels up to 1/r^2 (as Cauchy principal values) over two triangles that touch:
-/// the corners that they share come first in both, in the same order. The transformations of Sauter
-/// and Schwab (Boundary Element Methods, 5.2) with `radial` Gauss points in the direction away from
-/// what is shared, in which static kernels times shape functions are polynomials, and n in each of
-/// the three others: 6, 5 or 2 radial n^3 points. Points of which n or n^2 have the same x or the
-/// same y stand one after another.
-std::vector<PairPoint> touching_rule(Adjacency adjacency, int n, int radial);
+/// Two triangles that touch: the corners that they share come first in both, in the same order.
+struct TouchingTriangles {
+  Adjacency adjacency;
+  std::array<Vec3, 3> x, y;
+};
+
+/// How fine a rule for touching triangles is.
+struct TouchingAccuracy {
+  /// Gauss points away from what is shared, and in the other directions in which |x - y| is a
+  /// factor times what does not depend on them. Static kernels times shape functions are
+  /// polynomials there: 3 and 2 points are exact for them.
+  int away, along;
+  /// Error aimed at in the directions in which |x - y| changes otherwise, relative to the integral.
+  double tolerance;
+};
+
+/// Quadrature for kernels up to 1/r^2 (as Cauchy principal values) over two triangles that touch,
+/// by the transformations of Sauter and Schwab (Boundary Element Methods, 5.2). Each of the
+/// directions that are left (three about a vertex, two about an edge, one in the same triangle) has
+/// as many Gauss points as the nearest zero of |x - y|^2 at a complex coordinate demands; where
+/// these are too many, as beside slender triangles, the direction is halved. Points of which many
+/// have the same x or the same y stand one after another.
+std::vector<PairPoint> touching_rule(const TouchingTriangles& pair,
+                                     const TouchingAccuracy& accuracy);
 
 }  // namespace bem
