@@ -100,7 +100,7 @@ prepare() {  # SCENE: what it needs
       shape thin-plate box --size 0.005 0.6 0.6 --divisions 1 12 12
       shape sheet box --size 0.005 0.6 0.6 --divisions 1 12 12
       shape bullet icosphere --subdivisions 1 --radius 0.02
-      archive sheet plastic bdf1 0.002 --discretisation collocation  # of 120:1, see docs/accuracy.md, "Growth"
+      archive sheet plastic bdf1 0.002
       archive bullet plastic bdf1 0.002 ;;
   esac
 }

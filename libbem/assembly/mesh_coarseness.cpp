@@ -31,6 +31,7 @@ std::array<Mat3, 6> quadratic_forms() {
 struct SurfaceForms {
   Matrix6 bubbles = Matrix6::Zero();  ///< int b_m b_n dA
   Matrix6 fields = Matrix6::Zero();   ///< int of products without their affine parts
+  double area = 0;
 
   SurfaceForms(const TriangleMesh& mesh, const std::vector<Vec3>& x) {
     const std::array<Mat3, 6> forms = quadratic_forms();
@@ -38,7 +39,8 @@ struct SurfaceForms {
     const Matrix6 mass = quadratic_mass();
     Matrix10 products = Matrix10::Zero();  // of 1, x, y, z and the quadratic functions
     for (const Triangle& t : mesh.triangles) {
-      const double area = triangle_area(mesh, t);
+      const double of_triangle = triangle_area(mesh, t);
+      area += of_triangle;
       Eigen::Matrix<double, 6, 10> values = Eigen::Matrix<double, 6, 10>::Zero();
       for (int k = 0; k < 3; ++k) {
         const Vec3 &at = x[t[k]], edge = x[t[(k + 1) % 3]] - at;
@@ -49,9 +51,9 @@ struct SurfaceForms {
           values(3 + k, 4 + m) = -0.25 * edge.dot(forms[m] * edge);
         }
       }
-      products += area * values.transpose() * mass * values;
+      products += of_triangle * values.transpose() * mass * values;
       const auto b = values.block<3, 6>(3, 4);
-      bubbles += area * b.transpose() * mass.block<3, 3>(3, 3) * b;
+      bubbles += of_triangle * b.transpose() * mass.block<3, 3>(3, 3) * b;
     }
     const Eigen::Matrix4d affine = products.topLeftCorner<4, 4>();
     const Eigen::Matrix<double, 4, 6> mixed = products.topRightCorner<4, 6>();
@@ -84,21 +86,36 @@ double largest(const Matrix6& form, const Matrix18& energy) {
   return std::max(solver.eigenvalues().maxCoeff(), 0.0);
 }
 
-}  // namespace
+/// The forms of a body along its axes of inertia, where energies of thin bodies are exact, and in
+/// units of its size.
+struct QuadraticFields {
+  SurfaceForms forms;
+  Matrix18 energy;
+  double scale;  ///< unit of the ratios of the forms to the energy [m]
+};
 
-double mesh_coarseness(const TriangleMesh& mesh) {
+QuadraticFields quadratic_fields(const TriangleMesh& mesh) {
   const MassProperties mass = mass_properties(mesh, 1);
   const Mat3 moments = 0.5 * mass.inertia.trace() * Mat3::Identity() - mass.inertia;
-  // along the axes of inertia, where energies of thin bodies are exact
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(moments);
   const double size = std::sqrt(moments.trace() / mass.volume);
   std::vector<Vec3> x;
   for (const Vec3& vertex : mesh.vertices)
     x.emplace_back(axes.eigenvectors().transpose() * (vertex - mass.centre) / size);
   const Vec3 spread = axes.eigenvalues() / (size * size * mass.volume);
-  const SurfaceForms forms(mesh, x);
-  const Matrix18 energy = strain_energy(spread.asDiagonal());
-  return std::sqrt(largest(forms.bubbles, energy) / largest(forms.fields, energy));
+  return {SurfaceForms(mesh, x), strain_energy(spread.asDiagonal()), size * size / mass.volume};
+}
+
+}  // namespace
+
+double mesh_coarseness(const TriangleMesh& mesh) {
+  const QuadraticFields q = quadratic_fields(mesh);
+  return std::sqrt(largest(q.forms.bubbles, q.energy) / largest(q.forms.fields, q.energy));
+}
+
+double softness(const TriangleMesh& mesh) {
+  const QuadraticFields q = quadratic_fields(mesh);
+  return q.scale * largest(q.forms.fields, q.energy) / q.forms.area;
 }
 
 }  // namespace bem

@@ -21,4 +21,8 @@ namespace bem {
 /// O(n).
 double mesh_coarseness(const TriangleMesh& mesh);
 
+/// How far the softest of the same displacements moves the surface: the largest mean of
+/// |u - affine|^2 over the surface for int tr(eps^2) dV = 1 m^3 [1/m]. O(n).
+double softness(const TriangleMesh& mesh);
+
 }  // namespace bem

@@ -212,6 +212,8 @@ void GalerkinSlabs<T>::add_squares(const GalerkinRows<S>& rows, int row,
       sum.stiffness += square(static_part);
       combination_.initial_h(static_part, z, lanes.data());
       for (int lane = 0; lane < initial; ++lane) sum.initial_h += square(lanes[lane]);
+      combination_.initial_h(0.0, z, lanes.data());
+      for (int lane = 0; lane < initial; ++lane) sum.initial_inertia += square(lanes[lane]);
       for (int lane = initial; lane < count; ++lane) sum.h += square(z[lane]);
     }
   }

@@ -1,11 +1,13 @@
 #include "model/initial_inverse.hpp"
 
 #include "base/parallel.hpp"
+#include "compress/complex_product.hpp"
 #include "compress/direct_builder.hpp"
 #include "compress/low_rank_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -251,6 +253,36 @@ double inverse_scale(const DenseMatrix<T>& inverse) {
   return std::min(inverse.norm(), kMostOfOwn * std::sqrt(nodes * own[own.size() / 2]));
 }
 
+/// The largest eigenvalue of a symmetric matrix that has no negative ones, by power iteration: a
+/// few per cent too small.
+double largest_eigenvalue(const MatrixFamily& matrix) {
+  constexpr int kIterations = 12;
+  const auto n = static_cast<Eigen::Index>(matrix.rows());
+  Eigen::MatrixXd x(n, 1);
+  for (Eigen::Index i = 0; i < n; ++i)
+    x(i, 0) = std::sin(1.0 + 7.0 * static_cast<double>(i * i % 1009));
+  double value = 0;
+  for (int i = 0; i < kIterations; ++i) {
+    x /= x.norm();
+    x = multiply_real(matrix, x);
+    value = x.norm();
+    if (value == 0) return 0;
+  }
+  return value;
+}
+
+/// The most that the errors of H_0^{-1} may be for a step of the inertial form, which multiplies
+/// D(0) u by it, to keep a part of what is stiffest: Frobenius norm. Thin bodies bend so much more
+/// than they are compressed that errors which are small beside the one may exceed the other.
+double most_error_of_inverse(const BodyModel& model) {
+  constexpr double kKept = 0.05;
+  constexpr double kSpread =
+      2;  // spectral norm of errors over what their mean square would make it
+  if (!model.stiffness) return std::numeric_limits<double>::infinity();
+  const auto n = static_cast<Eigen::Index>(model.stiffness->rows());
+  return kKept / (largest_eigenvalue(*model.stiffness) * LowRankBuilder::spectral_norm(1, n));
+}
+
 template <class T>
 void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, MatrixForm form,
                        const LowRankFamily* g, double tolerance, const Progress& progress) {
@@ -262,18 +294,19 @@ void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, MatrixForm form,
   const auto rows_of = [&](const Slab& slab) {
     return parts(inverse, 3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin));
   };
-  const auto builder = [&](MatrixForm of, double norm, const auto& matrix_rows) {
+  const auto builder = [&](MatrixForm of, double error, const auto& matrix_rows) {
     std::vector<Slab> slabs = with_form(partition, of);
     const Slab& sample = typical_slab(slabs, of);
     const std::vector<FloatMatrix> rows = matrix_rows(sample);
-    const double quantum = LowRankBuilder::choose_quantum(sample, views(rows), tolerance * norm,
-                                                          model.stiffness != nullptr);
+    const double quantum =
+        LowRankBuilder::choose_quantum(sample, views(rows), error, model.stiffness != nullptr);
     return LowRankBuilder(std::move(slabs), static_cast<int>(rows.size()), quantum, of);
   };
-  LowRankBuilder inverse_builder = builder(form, inverse_scale(inverse), rows_of);
+  LowRankBuilder inverse_builder = builder(
+      form, std::min(tolerance * inverse_scale(inverse), most_error_of_inverse(model)), rows_of);
   std::optional<LowRankBuilder> response_builder;
   if (g)
-    response_builder = builder(MatrixForm::general, response_scale(model, inverse, *g),
+    response_builder = builder(MatrixForm::general, tolerance * response_scale(model, inverse, *g),
                                [&](const Slab& slab) { return times(rows_of(slab), *g); });
   for (const Slab& slab : partition) {
     if (progress)

@@ -1,5 +1,6 @@
 #include "model/model_assembly.hpp"
 
+#include "assembly/mesh_coarseness.hpp"
 #include "compress/direct_builder.hpp"
 #include "compress/low_rank_builder.hpp"
 #include "model/initial_inverse.hpp"
@@ -256,13 +257,23 @@ class CompressedBuilders {
   std::unique_ptr<LowRankBuilder> g() const {
     return builder(sample_.g, norms_.g, tolerance_, MatrixForm::general);
   }
-  std::unique_ptr<LowRankBuilder> stiffness(double tolerance) const {
-    return builder({sample_.stiffness}, norms_.stiffness, tolerance, form_);
+  /// `least`: eigenvalue of the softest motion that is not rigid [N/m].
+  std::unique_ptr<LowRankBuilder> stiffness(double tolerance, double least) const {
+    constexpr double kKept = 0.01, kSmallest = 1e-9;
+    const double spectral =
+        LowRankBuilder::spectral_norm(norms_.stiffness, sample_.stiffness.cols());
+    return builder({sample_.stiffness}, norms_.stiffness,
+                   std::clamp(kKept * least / spectral, kSmallest, tolerance), form_);
   }
-  /// Of parts of H_0 or G_0. `part_of_tolerance`: less than one for what is an ingredient only.
+  /// Of parts of H_0. In the inertial form the errors are relative to the inertia in it, and not to
+  /// the stiffness, of which soft motions feel but a small part.
   std::unique_ptr<LowRankBuilder> initial_h(int first, int count) const {
-    return builder(parts(sample_.initial_h, first, count), norms_.initial_h, tolerance_, form_);
+    constexpr double kOfInertia = 0.1;
+    return builder(parts(sample_.initial_h, first, count),
+                   inertial_ ? kOfInertia * norms_.initial_inertia : norms_.initial_h, tolerance_,
+                   form_);
   }
+  /// Of parts of G_0. `part_of_tolerance`: less than one for what is an ingredient only.
   std::unique_ptr<LowRankBuilder> initial_g(int first, int count, double part_of_tolerance) const {
     return builder(parts(sample_.initial_g, first, count), norms_.initial_g,
                    part_of_tolerance * tolerance_, MatrixForm::general);
@@ -295,6 +306,13 @@ class CompressedBuilders {
   MatrixSlab<float> sample_;
 };
 
+/// The eigenvalue of D(0) [N/m] of the softest quadratic displacement, bending if the body is
+/// slender or thin; a little too large.
+double least_stiffness(const BodyModel& model) {
+  return 2 * model.discretisation.material.shear_modulus /
+         (static_cast<double>(model.nodes()) * softness(model.geometry.nodes));
+}
+
 Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::vector<Slab>& slabs,
                                   const BodyModel& model, const PrecomputeOptions& options) {
   constexpr double kOfIngredient = 0.3;  // of the tolerance: G_0 that becomes H_0^{-1} G_0
@@ -307,7 +325,8 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
   if (model.has_history() && tractions) targets.g = builders.g();
   targets.g_part = builders.g_part();
   if (assembler.is_inertial())
-    targets.stiffness = builders.stiffness(stiffness_codec(options.codec).tolerance);
+    targets.stiffness =
+        builders.stiffness(stiffness_codec(options.codec).tolerance, least_stiffness(model));
   if (!iterative) targets.dense_h = dense_matrices(model, assembler.form());
   for_each_initial(model.discretisation.scheme, [&](std::size_t, int part, int parts) {
     if (iterative) targets.initial_h.push_back(builders.initial_h(part, parts));

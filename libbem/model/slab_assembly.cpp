@@ -97,8 +97,9 @@ void SlabAssembler<T>::add_columns(int node, const double* from, int padded_lane
 
 template <class T>
 typename SlabAssembler<T>::Norms SlabAssembler<T>::Norms::root(double scale) const {
-  return {std::sqrt(scale * h), std::sqrt(scale * g), std::sqrt(scale * stiffness),
-          std::sqrt(scale * initial_h), std::sqrt(scale * initial_g)};
+  return {std::sqrt(scale * h),         std::sqrt(scale * g),
+          std::sqrt(scale * stiffness), std::sqrt(scale * initial_h),
+          std::sqrt(scale * initial_g), std::sqrt(scale * initial_inertia)};
 }
 
 template <class T>

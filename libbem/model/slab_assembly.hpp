@@ -42,6 +42,7 @@ class SlabAssembler {
   /// Frobenius norms of all matrices of a kind together, estimated from some of their rows.
   struct Norms {
     double h = 0, g = 0, stiffness = 0, initial_h = 0, initial_g = 0;
+    double initial_inertia = 0;  ///< initial_h without the stiffness
     /// Of sums of squares, times `scale`.
     Norms root(double scale) const;
   };

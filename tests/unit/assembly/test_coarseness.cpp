@@ -241,6 +241,15 @@ TEST_CASE("the coarseness of a slender beam is that of its bending") {
   CHECK(mesh_coarseness(box(Vec3(0.2, 10, 0.2), {4, 10, 4})) == Approx(expected).epsilon(0.03));
 }
 
+TEST_CASE("the softness of a slender beam is that of its bending") {
+  // u = x^2/2 across a beam of L x b x b, up to what is of order (b/L)^2: the mean of the square of
+  // its part without affine fields is L^4/720, int tr(eps^2) dV is L b^4/12
+  const double length = 10, width = 0.2;
+  const double expected = std::pow(length, 3) * 12 / (720 * std::pow(width, 4));
+  CHECK(softness(box(Vec3(length, width, width), {20, 1, 1})) == Approx(expected).epsilon(0.05));
+  CHECK(softness(box(Vec3(width, length, width), {1, 20, 1})) == Approx(expected).epsilon(0.05));
+}
+
 TEST_CASE("one cell across a body is coarse") {
   CHECK(mesh_coarseness(box(Vec3(1, 1, 1), {1, 1, 1})) > 0.5);
   CHECK(mesh_coarseness(icosphere(0, 1)) > 0.3);
