@@ -11,8 +11,10 @@ namespace bem {
 namespace {
 
 constexpr int kDeepest = 24;                      // times that triangles of a pair are halved
-constexpr int kStaticAway = 3, kDynamicAway = 4;  // exact for static kernels, for Z(0)
-constexpr int kStaticAlong = 2, kDynamicAlong = 4, kMostForWaves = 4;
+constexpr int kStaticAway = 3, kDynamicAway = 4;  // exact for static kernels, for 1/r in Z
+constexpr int kStaticAlong = 2, kDynamicAlong = 3;
+constexpr double kPerWave = 0.4, kMostForWaves = 4;  // more of them per |s| h/c2
+constexpr double kDynamicPart = 0.05;                 // of the square root of the tolerance
 
 double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
@@ -68,9 +70,14 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
   for (int x = 0; x < kTriangleRuleCount; ++x)
     for (int y = 0; y < kTriangleRuleCount; ++y)
       products_[x][y] = product_rule(triangle_rules()[x], triangle_rules()[y]);
-  const int away = kDynamicAway + std::min(kMostForWaves, static_cast<int>(0.4 * longest_wave()));
+  // leading terms of Z times shape functions are polynomials there, smaller errors and shorter
+  // waves ask for further ones
+  const double more = std::max(0.0, std::ceil(-0.5 * std::log10(tolerance) - 3)),
+               waves = std::min(kMostForWaves, kPerWave * longest_wave());
+  const int away = kDynamicAway + static_cast<int>(more + std::floor(waves)),
+            along = kDynamicAlong + static_cast<int>(more + std::ceil(waves));
   static_touching_ = {kStaticAway, kStaticAlong, tolerance};
-  dynamic_touching_ = {away, kDynamicAlong, std::sqrt(tolerance)};
+  dynamic_touching_ = {away, along, kDynamicPart * std::sqrt(tolerance)};
 }
 
 bool PairQuadrature::midpoints_suffice(double distance, double longest_edge,

@@ -53,6 +53,8 @@ LaplaceMatrices matrices_of(const GalerkinRows<T>& rows, const GalerkinCombinati
 }  // namespace
 
 TEST_CASE("assembled rows of lag 0 are those of the scalar reference") {
+  // the reference resolves all waves, assemblers only those up to |s| dt = 1
+  constexpr double tolerance = 1e-4;
   const std::pair<TriangleMesh, const char*> cases[] = {
       {random_tetrahedron(7), "radau2"}, {box(Vec3(1, 0.6, 0.5), {3, 1, 1}), "theta:0.5"}};
   for (const auto& [mesh, scheme] : cases) {
@@ -77,11 +79,11 @@ TEST_CASE("assembled rows of lag 0 are those of the scalar reference") {
       INFO(scheme << ", " << n << " nodes");
       const int lanes = assembler.layout().count();
       const LaplaceMatrices found = matrices_of(rows, combination, c, lane, lanes);
-      CHECK(difference(found.h, part(expected.h)) < 2e-5);
-      CHECK(difference(found.g, part(expected.g)) < 2e-5);
+      CHECK(difference(found.h, part(expected.h)) < tolerance);
+      CHECK(difference(found.g, part(expected.g)) < tolerance);
       const LaplaceMatrices single = matrices_of(narrow, combination, c, lane, lanes);
-      CHECK(difference(single.h, part(expected.h)) < 2e-5);
-      CHECK(difference(single.g, part(expected.g)) < 2e-5);
+      CHECK(difference(single.h, part(expected.h)) < tolerance);
+      CHECK(difference(single.g, part(expected.g)) < tolerance);
       lane += c.paired ? 2 : 1;
     }
   }
