@@ -31,35 +31,18 @@ class Adjoint {
 
   /// (sum_k X_k)^T z for the lag sums of X.
   Columns lags(const MatrixFamily& sums, const Columns& z) const {
-    const auto& components = scheme_.lag_components();
-    Columns out = Columns::Zero(z.rows(), z.cols());
-    for (std::size_t m = 0; m < components.size(); ++m) {
-      const Columns inputs = combine(components[m].left, z);
-      const Columns products = transposed(sums, static_cast<int>(m), inputs);
-      for (int b = 0; b < scheme_.stages(); ++b) stage(out, b) += components[m].right[b] * products;
-    }
-    return out;
+    return by_component(
+        z, [&](int m, const Columns& inputs) { return transposed(sums, {m}, inputs); });
   }
 
   /// The same from the lags themselves: a sum of matrices is rounded as the codec stores it.
   Columns exact_lags(const MatrixFamily& lags, const Columns& z) const {
-    const auto& components = scheme_.lag_components();
-    Columns out = Columns::Zero(z.rows(), z.cols());
-    for (std::size_t m = 0; m < components.size(); ++m) {
-      const Columns inputs = combine(components[m].left, z);
-      Columns products = Columns::Zero(n_, z.cols());
-      std::vector<FamilyTerm> terms;
-      std::vector<double*> outputs;
-      for (Eigen::Index c = 0; c < z.cols(); ++c) {
-        for (int k = 1; k <= model_.discretisation.history_length; ++k)
-          terms.push_back({model_.lag_index(k, static_cast<int>(m)), inputs.col(c).data(), nullptr,
-                           static_cast<int>(c)});
-        outputs.push_back(products.col(c).data());
-      }
-      lags.multiply_transposed_add(terms, outputs);
-      for (int b = 0; b < scheme_.stages(); ++b) stage(out, b) += components[m].right[b] * products;
-    }
-    return out;
+    return by_component(z, [&](int m, const Columns& inputs) {
+      std::vector<int> matrices;
+      for (int k = 1; k <= model_.discretisation.history_length; ++k)
+        matrices.push_back(model_.lag_index(k, m));
+      return transposed(lags, matrices, inputs);
+    });
   }
 
   /// X_0^T z for a matrix of lag 0, by initial component.
@@ -113,13 +96,27 @@ class Adjoint {
     for (int a = 1; a < scheme_.stages(); ++a) out += factors[a] * z.middleRows(a * n, n);
     return out;
   }
-  Columns transposed(const MatrixFamily& family, int matrix, const Columns& inputs) const {
+  /// The sum over the components of lags of product(m, what is multiplied).
+  template <class F>
+  Columns by_component(const Columns& z, const F& product) const {
+    const auto& components = scheme_.lag_components();
+    Columns out = Columns::Zero(z.rows(), z.cols());
+    for (std::size_t m = 0; m < components.size(); ++m) {
+      const Columns products = product(static_cast<int>(m), combine(components[m].left, z));
+      for (int b = 0; b < scheme_.stages(); ++b) stage(out, b) += components[m].right[b] * products;
+    }
+    return out;
+  }
+  /// Products with the sum of some matrices.
+  Columns transposed(const MatrixFamily& family, const std::vector<int>& matrices,
+                     const Columns& inputs) const {
     Columns out = Columns::Zero(n_, inputs.cols());
     if (inputs.isZero(0)) return out;
     std::vector<FamilyTerm> terms;
     std::vector<double*> outputs;
     for (Eigen::Index c = 0; c < inputs.cols(); ++c) {
-      terms.push_back({matrix, inputs.col(c).data(), nullptr, static_cast<int>(c)});
+      for (int matrix : matrices)
+        terms.push_back({matrix, inputs.col(c).data(), nullptr, static_cast<int>(c)});
       outputs.push_back(out.col(c).data());
     }
     family.multiply_transposed_add(terms, outputs);
