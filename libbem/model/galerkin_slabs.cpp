@@ -8,6 +8,25 @@
 #include <cmath>
 
 namespace bem {
+namespace {
+
+/// Entries of a row: inertia and traction kernel in the lanes, and their static parts.
+double bytes_per_row(int n, const LaneLayout& layout, AssemblyPrecision precision) {
+  const double entry = precision == AssemblyPrecision::single ? sizeof(float) : sizeof(double);
+  return 18.0 * n * (layout.count() * entry + sizeof(double));
+}
+
+}  // namespace
+
+int galerkin_rows_in_memory(int n, const LaneLayout& layout, AssemblyPrecision precision) {
+  constexpr double kMostBytes = 2e9;
+  return static_cast<int>(std::min<double>(n, kMostBytes / bytes_per_row(n, layout, precision)));
+}
+
+double galerkin_row_bytes(int n, const LaneLayout& layout, AssemblyPrecision precision) {
+  return galerkin_rows_in_memory(n, layout, precision) * bytes_per_row(n, layout, precision);
+}
+
 template <class T>
 GalerkinSlabs<T>::GalerkinSlabs(BodyModel& model, AssemblyPrecision precision, MatrixForm form)
     : SlabAssembler<T>(model),
@@ -35,14 +54,11 @@ void GalerkinSlabs<T>::with_rows(int first, int last, const F& f) {
   }
 }
 
-/// As many rows as have room, so that few triangles are gone through again for the next ones.
 template <class T>
 int GalerkinSlabs<T>::rows_in_memory() const {
-  constexpr double kMostBytes = 2e9;
-  const double entry = precision_ == AssemblyPrecision::single ? sizeof(float) : sizeof(double);
-  const int n = static_cast<int>(this->model_.nodes());
-  const double per_row = 18.0 * n * assembler_.layout().count() * entry;
-  return static_cast<int>(std::min<double>(n, kMostBytes / per_row));
+  return alone_ ? 0
+                : galerkin_rows_in_memory(static_cast<int>(this->model_.nodes()),
+                                          assembler_.layout(), precision_);
 }
 
 template <class T>

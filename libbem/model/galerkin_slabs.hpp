@@ -5,6 +5,12 @@
 
 namespace bem {
 
+/// Rows of test functions, of n nodes, that are assembled together: as many as have room, so that
+/// few triangles are gone through again for the next ones.
+int galerkin_rows_in_memory(int n, const LaneLayout& layout, AssemblyPrecision precision);
+/// What they take [bytes].
+double galerkin_row_bytes(int n, const LaneLayout& layout, AssemblyPrecision precision);
+
 /// Matrices of the Galerkin method: rows are those of test functions that reach over two rings of
 /// triangles, so that many of them are assembled together, as far as memory goes.
 template <class T>
@@ -13,6 +19,7 @@ class GalerkinSlabs : public SlabAssembler<T> {
   GalerkinSlabs(BodyModel& model, AssemblyPrecision precision, MatrixForm form);
 
   void assemble(int first, int last, MatrixSlab<T>& slab) override;
+  void assemble_alone() override { alone_ = true; }
   typename SlabAssembler<T>::Norms estimate_norms() override;
   double row_sum_residual() const override { return 0; }  // rigid translation is exact
   /// Without a history nothing is multiplied but by lag 0.
@@ -38,6 +45,7 @@ class GalerkinSlabs : public SlabAssembler<T> {
 
   AssemblyPrecision precision_;
   MatrixForm form_;
+  bool alone_ = false;
   std::vector<char> known_;  ///< by node: whether its rows are in the body forces
   GalerkinAssembler assembler_;
   GalerkinCombination combination_;

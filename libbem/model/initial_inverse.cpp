@@ -276,8 +276,6 @@ double largest_eigenvalue(const MatrixFamily& matrix) {
 /// than they are compressed that errors which are small beside the one may exceed the other.
 double most_error_of_inverse(const BodyModel& model) {
   constexpr double kKept = 0.05;
-  constexpr double kSpread =
-      2;  // spectral norm of errors over what their mean square would make it
   if (!model.stiffness) return std::numeric_limits<double>::infinity();
   const auto n = static_cast<Eigen::Index>(model.stiffness->rows());
   return kKept / (largest_eigenvalue(*model.stiffness) * LowRankBuilder::spectral_norm(1, n));

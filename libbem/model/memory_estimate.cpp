@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "compress/block_partition.hpp"
+#include "model/galerkin_slabs.hpp"
 #include "model/model_assembly.hpp"
 
 #include <algorithm>
@@ -40,6 +41,14 @@ double initial_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
   return bytes;
 }
 
+/// Rows that the Galerkin method assembles together.
+double row_buffer_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
+  if (o.discretisation.method != SpatialMethod::galerkin) return 0;
+  return galerkin_row_bytes(static_cast<int>(g.nodes.vertices.size()),
+                            LaneLayout(o.discretisation.scheme, o.discretisation.history_length),
+                            assembly_precision(o));
+}
+
 double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o,
                        const StoredEstimate& stored) {
   constexpr double kCopies = 2;  // of the numbers of a block while its bases are found
@@ -57,7 +66,8 @@ double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o,
   const double rows = kTileNodes * n * 5 * 4 * (c.lags + c.parts + 4);  // of the assembler
   const double work = thread_count() * (kCopies * 4 * widest * c.lags + rows);
   const double dense = o.inverse == InverseKind::dense ? initial_bytes(g, o) : 0;
-  return kProgram + std::max(stored.assembly_bytes + dense + slab + work, stored.bytes);
+  return kProgram + std::max(stored.assembly_bytes + dense + slab + work + row_buffer_bytes(g, o),
+                             stored.bytes);
 }
 
 }  // namespace
@@ -70,8 +80,9 @@ StoredEstimate estimate_stored(const BodyGeometry& g, const PrecomputeOptions& o
   } else {
     constexpr double kWithIndices = 1.5;  // a number of codec haar and its place
     const Counts c = counts_of(o);
-    out.bytes = square(g) * static_cast<double>(bytes_per_entry(o.precision)) * c.kinds *
-                (c.lags + c.parts);
+    const bool inertial = c.lags > 0 && o.discretisation.method == SpatialMethod::galerkin;
+    out.bytes = square(g) * static_cast<double>(bytes_per_entry(o.precision)) *
+                (c.kinds * (c.lags + c.parts) + (inertial ? 1 : 0));
     if (o.codec.ratio > 0) out.bytes *= std::min(1.0, kWithIndices / o.codec.ratio);
   }
   out.bytes += small_bytes(g, o);
@@ -87,7 +98,9 @@ double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, const Store
   // lag 0 is double while it is factorised; the stored copies replace it one by one
   const double lags = square(g) * entry * c.kinds * c.lags;
   const double initial = o.inverse == InverseKind::dense ? initial_bytes(g, o) * c.kinds : 0;
-  return std::max(lags + initial + square(g) * entry * c.parts, stored.bytes) + small_bytes(g, o);
+  return std::max(lags + initial + square(g) * entry * c.parts + row_buffer_bytes(g, o),
+                  stored.bytes) +
+         small_bytes(g, o);
 }
 
 }  // namespace bem

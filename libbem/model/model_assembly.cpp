@@ -165,14 +165,6 @@ void make_regular(const BodyModel& model, std::vector<InitialMatrix>& h) {
   h.at(0).form = MatrixForm::general;
 }
 
-/// Far panels in single precision where neither storage nor tolerance asks for more.
-AssemblyPrecision assembly_precision(const PrecomputeOptions& options) {
-  const bool single =
-      (options.codec.codec != Codec::none || options.precision == Precision::float32) &&
-      options.discretisation.quadrature_tolerance >= 1e-6;
-  return single ? AssemblyPrecision::single : AssemblyPrecision::full;
-}
-
 /// Takes a builder's family; returns its error.
 template <class T>
 double finish(FamilyBuilder<T>& builder, std::unique_ptr<MatrixFamily>& family) {
@@ -357,6 +349,16 @@ void assemble_compressed(BodyModel& model, const PrecomputeOptions& options,
         options.codec.tolerance, progress);
 }
 
+/// A model whose rows may be assembled.
+BodyModel empty_model(const BodyGeometry& geometry, const PrecomputeOptions& options) {
+  BodyModel model;
+  model.geometry = geometry;
+  model.discretisation = options.discretisation;
+  model.loads = options.loads;
+  model.loaded_nodes = options.loaded_nodes;
+  return model;
+}
+
 }  // namespace
 
 void assemble_model(BodyModel& model, const PrecomputeOptions& options, const Progress& progress) {
@@ -368,14 +370,34 @@ void assemble_model(BodyModel& model, const PrecomputeOptions& options, const Pr
     assemble_directly<double>(model, options, progress);
 }
 
+AssemblyPrecision assembly_precision(const PrecomputeOptions& options) {
+  const bool single =
+      (options.codec.codec != Codec::none || options.precision == Precision::float32) &&
+      options.discretisation.quadrature_tolerance >= 1e-6;
+  return single ? AssemblyPrecision::single : AssemblyPrecision::full;
+}
+
+double seconds_per_row(const BodyGeometry& geometry, const PrecomputeOptions& options) {
+  constexpr int kRows = 8;
+  constexpr double kShort = 0.5;  // seconds: what the first time allocates matters
+  BodyModel model = empty_model(geometry, options);
+  const auto assembler = make_slab_assembler<float>(model, assembly_precision(options), false);
+  assembler->assemble_alone();
+  MatrixSlab<float> slab;
+  const int n = static_cast<int>(model.nodes()), rows = std::min(n, kRows), first = (n - rows) / 2;
+  const auto assemble = [&] {
+    const auto start = std::chrono::steady_clock::now();
+    assembler->assemble(first, first + rows, slab);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const double seconds = assemble();
+  return (seconds < kShort ? std::min(seconds, assemble()) : seconds) / rows;
+}
+
 StoredEstimate sample_compression(const BodyGeometry& geometry, const PrecomputeOptions& options) {
   constexpr std::size_t kSamples = 3;
   constexpr double kOfInverse = 0.7;  // of the bytes of H_0 and G_0
-  BodyModel model;
-  model.geometry = geometry;
-  model.discretisation = options.discretisation;
-  model.loads = options.loads;
-  model.loaded_nodes = options.loaded_nodes;
+  BodyModel model = empty_model(geometry, options);
   PrecomputeOptions iterative = options;  // H_0 and G_0 are compressed
   iterative.inverse = InverseKind::iterative;
   const std::vector<Slab> all = make_partition(geometry.nodes.vertices, {});
@@ -387,6 +409,7 @@ StoredEstimate sample_compression(const BodyGeometry& geometry, const Precompute
     rows += slabs.back().row_end - slabs.back().row_begin;
   }
   const auto assembler = make_slab_assembler<float>(model, assembly_precision(options), false);
+  assembler->assemble_alone();
   auto start = std::chrono::steady_clock::now();
   Targets<float> targets = compressed_targets(*assembler, slabs, model, iterative);
   if (slabs.size() < all.size()) {  // trials take little of the whole, known slabs save little
@@ -398,7 +421,7 @@ StoredEstimate sample_compression(const BodyGeometry& geometry, const Precompute
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   take_families(targets, model);
   double lags = 0, initial = 0, initial_g = 0;
-  for (const auto* family : {model.h.get(), model.g.get()})
+  for (const auto* family : {model.h.get(), model.g.get(), model.stiffness.get()})
     if (family) lags += static_cast<double>(family->bytes());
   for (const auto* families : {&model.initial_h, &model.initial_g})
     for (const auto& family : *families) initial += static_cast<double>(family->bytes());

@@ -2,7 +2,6 @@
 
 #include "algebra/lu.hpp"
 #include "archive/archive_writer.hpp"
-#include "assembly/row_assembler.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
@@ -11,7 +10,7 @@
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/solids.hpp"
-#include "model/memory_estimate.hpp"
+#include "model/model_assembly.hpp"
 #include "scene/material_json.hpp"
 #include "scene/selection_json.hpp"
 
@@ -69,34 +68,16 @@ void plan_storage(const Options& o, Plan& plan) {
   }
 }
 
-/// Of a few rows on each thread; a single one has to allocate, too.
-template <class T>
-double seconds_per_row(const BodyGeometry& geometry, const Discretisation& discretisation,
-                       std::size_t rows_per_thread) {
-  const RowAssembler assembler(geometry.nodes, geometry.extent, discretisation);
-  const std::size_t nodes = geometry.nodes.vertices.size();
-  const std::size_t rows =
-      std::min(nodes, rows_per_thread * static_cast<std::size_t>(thread_count()));
-  const auto assemble = [&] {
-    parallel_for(rows, [&](std::size_t i) {
-      thread_local RowAssembler::Workspace work;
-      thread_local BlockRow<T> row;
-      assembler.assemble(static_cast<int>(i * nodes / rows), true, work, row);
-    });
-  };
-  if (rows_per_thread > 1) assemble();  // the first time allocates
-  return seconds_of(assemble) / static_cast<double>(rows);
-}
-
-/// Of the first row; with short time steps that of longer ones, times what lags and points of the
+/// Per row; with short time steps that of longer ones, times what lags and points of the
 /// quadrature grow by.
-double seconds_of_first_row(const Plan& plan) {
-  constexpr double kShort = 100;  // traversal steps
-  Discretisation d = plan.options.discretisation;
+double seconds_of_some_rows(const Plan& plan) {
+  constexpr double kShort = 60;  // traversal steps
+  PrecomputeOptions options = plan.options;
+  Discretisation& d = options.discretisation;
   const double factor = std::max(1.0, plan.lam / kShort);
   d.dt *= factor;
   d.history_length = static_cast<int>(std::ceil(d.history_length / factor));
-  return seconds_per_row<float>(plan.geometry, d, 1) * std::pow(factor, 3);
+  return seconds_per_row(plan.geometry, options) * std::pow(factor, 3);
 }
 
 /// Sizes of a dry run: by compressing a sample, or without compression if that takes too long.
@@ -104,7 +85,7 @@ StoredEstimate estimate_compression(Plan& plan) {
   constexpr double kSampledNodes = 384, kTooLong = 60;  // seconds
   constexpr double kWithCompression = 1.5;              // of the time without
   const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());
-  const double row = seconds_of_first_row(plan);
+  const double row = seconds_of_some_rows(plan);
   if (row * std::min(nodes, kSampledNodes) < kTooLong)
     return estimate_stored(plan.geometry, plan.options);
   plan.uncompressed = true;
@@ -238,13 +219,9 @@ TimeEstimate estimate_time(const Plan& plan) {
   const Discretisation& d = plan.options.discretisation;
   const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());
   const bool compressed = plan.options.codec.codec == Codec::lowrank;
-  const bool single =
-      plan.options.precision == Precision::float32 && d.quadrature_tolerance >= 1e-6;
   const bool dense = plan.options.inverse == InverseKind::dense;
   TimeEstimate t;
-  t.assembly = compressed ? plan.compression_seconds
-                          : nodes * (single ? seconds_per_row<float>(plan.geometry, d, 4)
-                                            : seconds_per_row<double>(plan.geometry, d, 4));
+  t.assembly = compressed ? plan.compression_seconds : nodes * seconds_of_some_rows(plan);
   for (const InitialComponent& c : d.scheme.initial_components())
     if (dense)
       t.inversion += c.paired ? seconds_of_inversion<Complex>(3 * nodes, !compressed)
