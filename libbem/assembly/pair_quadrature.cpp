@@ -14,7 +14,7 @@ constexpr int kDeepest = 24;                      // times that triangles of a p
 constexpr int kStaticAway = 3, kDynamicAway = 4;  // exact for static kernels, for 1/r in Z
 constexpr int kStaticAlong = 2, kDynamicAlong = 3;
 constexpr double kPerWave = 0.4, kMostForWaves = 4;  // more of them per |s| h/c2
-constexpr double kDynamicPart = 0.05;                 // of the square root of the tolerance
+constexpr double kDynamicPart = 0.05;                // of the square root of the tolerance
 
 double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;

@@ -100,5 +100,6 @@ TEST_CASE("rules of touching triangles have few points") {
   CHECK(count(Adjacency::edge, 1) < 1700);
   CHECK(count(Adjacency::vertex, 1) < 2600);
   // halved only towards where the distance is small: as the logarithm of the slenderness
-  for (const Adjacency adjacency : kAll) CHECK(count(adjacency, 1e-4) < 10 * count(adjacency, 1e-1));
+  for (const Adjacency adjacency : kAll)
+    CHECK(count(adjacency, 1e-4) < 10 * count(adjacency, 1e-1));
 }
