@@ -275,7 +275,7 @@ double largest_eigenvalue(const MatrixFamily& matrix) {
 /// D(0) u by it, to keep a part of what is stiffest: Frobenius norm. Thin bodies bend so much more
 /// than they are compressed that errors which are small beside the one may exceed the other.
 double most_error_of_inverse(const BodyModel& model) {
-  constexpr double kKept = 0.05;
+  constexpr double kKept = 0.02;
   if (!model.stiffness) return std::numeric_limits<double>::infinity();
   const auto n = static_cast<Eigen::Index>(model.stiffness->rows());
   return kKept / (largest_eigenvalue(*model.stiffness) * LowRankBuilder::spectral_norm(1, n));

@@ -251,7 +251,7 @@ class CompressedBuilders {
   }
   /// `least`: eigenvalue of the softest motion that is not rigid [N/m].
   std::unique_ptr<LowRankBuilder> stiffness(double tolerance, double least) const {
-    constexpr double kKept = 0.01, kSmallest = 1e-9;
+    constexpr double kKept = 0.003, kSmallest = 1e-9;
     const double spectral =
         LowRankBuilder::spectral_norm(norms_.stiffness, sample_.stiffness.cols());
     return builder({sample_.stiffness}, norms_.stiffness,
