@@ -123,8 +123,8 @@ PairQuadrature::Part PairQuadrature::touching_part(int tx, int ty, KernelPart ke
     pair.x[k] = part.x.corners()[part.corner_x[k]];
     pair.y[k] = part.y.corners()[part.corner_y[k]];
   }
-  points =
-      touching_rule(pair, kernel == KernelPart::static_part ? static_touching_ : dynamic_touching_);
+  touching_rule(pair, kernel == KernelPart::static_part ? static_touching_ : dynamic_touching_,
+                points);
   part.touching = &points;
   return part;
 }
@@ -163,7 +163,7 @@ void PairQuadrature::for_each_part(int tx, int ty, KernelPart kernel,
     f(part);
   };
   if (adjacency(tx, ty) != Adjacency::none) {
-    std::vector<PairPoint> points;
+    thread_local std::vector<PairPoint> points;  // f does not come back here
     give(touching_part(tx, ty, kernel, points));
     return;
   }

@@ -1,7 +1,5 @@
 #include "assembly/triangle_cell.hpp"
 
-#include <cmath>
-
 namespace bem {
 
 TriangleCell::TriangleCell(const std::array<Vec3, 3>& corners) : corners_(corners) {
@@ -16,17 +14,6 @@ void TriangleCell::measure() {
       longest_ = l;
       longest_side_ = i;
     }
-}
-
-double TriangleCell::slenderness() const {
-  const double twice_area = (corners_[1] - corners_[0]).cross(corners_[2] - corners_[0]).norm();
-  return longest_ * longest_ / twice_area;
-}
-
-double TriangleCell::widest_angle() const {  // opposite of the longest edge
-  const Vec3& tip = corners_[(longest_side_ + 2) % 3];
-  const Vec3 u = corners_[longest_side_] - tip, v = corners_[(longest_side_ + 1) % 3] - tip;
-  return std::atan2(u.cross(v).norm(), u.dot(v));
 }
 
 TriangleCell TriangleCell::half(int index) const {

@@ -19,9 +19,6 @@ class TriangleCell {
   bool is_whole() const { return part_ == 1; }
   double part() const { return part_; }             ///< of the triangle's area
   double longest_edge() const { return longest_; }  ///< [m]
-  /// The longest edge over the height on it.
-  double slenderness() const;
-  double widest_angle() const;
   const std::array<Vec3, 3>& corners() const { return corners_; }
 
   /// The place of barycentric coordinates in the cell.

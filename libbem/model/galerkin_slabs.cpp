@@ -16,15 +16,17 @@ double bytes_per_row(int n, const LaneLayout& layout, AssemblyPrecision precisio
   return 18.0 * n * (layout.count() * entry + sizeof(double));
 }
 
-}  // namespace
-
-int galerkin_rows_in_memory(int n, const LaneLayout& layout, AssemblyPrecision precision) {
+/// Rows of test functions, of n nodes, that are assembled together: as many as have room, so that
+/// few triangles are gone through again for the next ones.
+int most_rows_in_memory(int n, const LaneLayout& layout, AssemblyPrecision precision) {
   constexpr double kMostBytes = 2e9;
   return static_cast<int>(std::min<double>(n, kMostBytes / bytes_per_row(n, layout, precision)));
 }
 
+}  // namespace
+
 double galerkin_row_bytes(int n, const LaneLayout& layout, AssemblyPrecision precision) {
-  return galerkin_rows_in_memory(n, layout, precision) * bytes_per_row(n, layout, precision);
+  return most_rows_in_memory(n, layout, precision) * bytes_per_row(n, layout, precision);
 }
 
 template <class T>
@@ -57,8 +59,8 @@ void GalerkinSlabs<T>::with_rows(int first, int last, const F& f) {
 template <class T>
 int GalerkinSlabs<T>::rows_in_memory() const {
   return alone_ ? 0
-                : galerkin_rows_in_memory(static_cast<int>(this->model_.nodes()),
-                                          assembler_.layout(), precision_);
+                : most_rows_in_memory(static_cast<int>(this->model_.nodes()), assembler_.layout(),
+                                      precision_);
 }
 
 template <class T>
@@ -112,7 +114,7 @@ void GalerkinSlabs<T>::distribute_h(const GalerkinRows<S>& rows, int j, MatrixSl
       for (int lane = 0; lane < initial; ++lane) set(slab.initial_h[lane], lanes[lane]);
       for (int lane = initial; lane < count; ++lane)
         set(slab.h[lane - initial], static_cast<T>(z[lane]));
-      if (is_inertial()) set(slab.stiffness, static_cast<T>(static_part));
+      if (is_inertial()) set(slab.stiffness, static_part);
     }
 }
 

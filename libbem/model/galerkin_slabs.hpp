@@ -5,10 +5,7 @@
 
 namespace bem {
 
-/// Rows of test functions, of n nodes, that are assembled together: as many as have room, so that
-/// few triangles are gone through again for the next ones.
-int galerkin_rows_in_memory(int n, const LaneLayout& layout, AssemblyPrecision precision);
-/// What they take [bytes].
+/// What the rows of n nodes take that are assembled together [bytes].
 double galerkin_row_bytes(int n, const LaneLayout& layout, AssemblyPrecision precision);
 
 /// Matrices of the Galerkin method: rows are those of test functions that reach over two rings of

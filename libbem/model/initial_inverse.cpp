@@ -348,6 +348,21 @@ void InitialMatrix::set_rows(Eigen::Index first, const Eigen::MatrixXd& real_par
   });
 }
 
+void InitialMatrix::add(const MatrixFamily& family) {
+  constexpr int kTile = 384;  // rows of a slab
+  const auto n = static_cast<int>(family.rows());
+  std::vector<int> columns(n), rows;
+  std::iota(columns.begin(), columns.end(), 0);
+  for (int first = 0; first < n; first += kTile) {
+    rows.assign(columns.begin() + first, columns.begin() + std::min(n, first + kTile));
+    const Eigen::MatrixXd part = family.block(0, rows, columns);
+    if (paired)
+      complex.middleRows(first, part.rows()) += part;
+    else
+      real.middleRows(first, part.rows()) += part;
+  }
+}
+
 void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const CodecOptions& codec,
                   const Progress& progress) {
   if (h.paired)

@@ -26,6 +26,8 @@ struct InitialMatrix {
   /// are taken, and set their mirror images, too.
   void set_rows(Eigen::Index first, const Eigen::MatrixXd& real_part,
                 const Eigen::MatrixXd* imaginary_part);
+  /// Adds the first matrix of a family to the real part.
+  void add(const MatrixFamily& family);
 };
 
 /// Adds H_0^{-1} and, from the uncompressed G_0, H_0^{-1} G_0 of a component to the model, in the

@@ -1,6 +1,7 @@
 #include "model/model_assembly.hpp"
 
 #include "assembly/mesh_coarseness.hpp"
+#include "base/parallel.hpp"
 #include "compress/direct_builder.hpp"
 #include "compress/low_rank_builder.hpp"
 #include "model/initial_inverse.hpp"
@@ -95,7 +96,7 @@ struct Targets {
   std::unique_ptr<FamilyBuilder<T>> h, g;                               ///< lags, if any
   std::unique_ptr<FamilyBuilder<T>> stiffness;                          ///< of the inertial form
   std::vector<std::unique_ptr<FamilyBuilder<T>>> initial_h, initial_g;  ///< by initial component
-  std::vector<InitialMatrix> dense_h, dense_g;  ///< the same, to be inverted
+  std::vector<InitialMatrix> dense_h, dense_g;  ///< the same, to be inverted; H_0 without D(0)
   double g_part = 1;                            ///< CompressedBuilders::g_part()
   std::optional<MatrixSlab<T>> known;           ///< a slab that is assembled already
 };
@@ -111,6 +112,14 @@ void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vect
                              const std::vector<Eigen::MatrixXd>& from, int part, int parts) {
     if (!to.empty())
       to[i].set_rows(3 * slab.first, from[part], parts > 1 ? &from[part + 1] : nullptr);
+  };
+  const auto take_stiffness = [&] {
+    if (!targets.stiffness) return;
+    const typename MatrixSlab<T>::Matrix rows = slab.stiffness.template cast<T>();
+    targets.stiffness->add_rows({view(rows)});
+    if (targets.dense_h.empty()) return;
+    for_each_initial(model.discretisation.scheme,
+                     [&](std::size_t, int part, int) { slab.initial_h[part] -= slab.stiffness; });
   };
   const auto add_rows = [&](std::vector<std::unique_ptr<FamilyBuilder<T>>>& to, std::size_t i,
                             const std::vector<Eigen::MatrixXd>& from, int part, int parts) {
@@ -130,7 +139,7 @@ void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vect
     rotation.add(slab);
     if (targets.h) targets.h->add_rows(views(slab.h));
     if (targets.g) targets.g->add_rows(views(slab.g));
-    if (targets.stiffness) targets.stiffness->add_rows({view(slab.stiffness)});
+    take_stiffness();
     for_each_initial(model.discretisation.scheme, [&](std::size_t i, int part, int parts) {
       set_dense(targets.dense_h, i, slab.initial_h, part, parts);
       set_dense(targets.dense_g, i, slab.initial_g, part, parts);
@@ -163,6 +172,15 @@ void make_regular(const BodyModel& model, std::vector<InitialMatrix>& h) {
     scaled *= h.at(0).real.cwiseAbs().maxCoeff();
   h.at(0).real.noalias() -= scaled * rigid_part(model.geometry.nodes);
   h.at(0).form = MatrixForm::general;
+}
+
+/// What the slabs have left out of H_0. Of the inertial form that is D(0), which is taken as it is
+/// stored: a step multiplies H_0^{-1} by D(0) u, and slow motions do not grow however coarsely D(0)
+/// is stored if both are of the same symmetric matrix.
+void complete(std::vector<InitialMatrix>& h, const BodyModel& model) {
+  if (model.stiffness)
+    for (InitialMatrix& m : h) m.add(*model.stiffness);
+  make_regular(model, h);
 }
 
 /// Takes a builder's family; returns its error.
@@ -212,7 +230,7 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
   }
   assemble_all(*assembler, model, direct_slabs(options.codec, n), targets, progress);
   take_families(targets, model);
-  make_regular(model, targets.dense_h);
+  complete(targets.dense_h, model);
   for (std::size_t i = 0; i < targets.dense_h.size(); ++i)
     invert_dense(model, std::move(targets.dense_h[i]), tractions ? &targets.dense_g[i] : nullptr,
                  options.codec, progress);
@@ -254,7 +272,7 @@ class CompressedBuilders {
     constexpr double kKept = 0.003, kSmallest = 1e-9;
     const double spectral =
         LowRankBuilder::spectral_norm(norms_.stiffness, sample_.stiffness.cols());
-    return builder({sample_.stiffness}, norms_.stiffness,
+    return builder({sample_.stiffness.cast<float>()}, norms_.stiffness,
                    std::clamp(kKept * least / spectral, kSmallest, tolerance), form_);
   }
   /// Of parts of H_0. In the inertial form the errors are relative to the inertia in it, and not to
@@ -338,7 +356,7 @@ void assemble_compressed(BodyModel& model, const PrecomputeOptions& options,
   assemble_all(*assembler, model, slabs, targets, progress);
   take_families(targets, model);
   if (options.inverse == InverseKind::iterative) return;
-  make_regular(model, targets.dense_h);
+  complete(targets.dense_h, model);
   const std::vector<std::unique_ptr<MatrixFamily>> initial_g = std::move(model.initial_g);
   model.initial_g.clear();
   model.report.codec_errors.initial_g = 0;  // not in the model
@@ -378,20 +396,23 @@ AssemblyPrecision assembly_precision(const PrecomputeOptions& options) {
 }
 
 double seconds_per_row(const BodyGeometry& geometry, const PrecomputeOptions& options) {
-  constexpr int kRows = 8;
+  constexpr int kFewest = 8, kOfThread = 4;
   constexpr double kShort = 0.5;  // seconds: what the first time allocates matters
   BodyModel model = empty_model(geometry, options);
   const auto assembler = make_slab_assembler<float>(model, assembly_precision(options), false);
   assembler->assemble_alone();
   MatrixSlab<float> slab;
-  const int n = static_cast<int>(model.nodes()), rows = std::min(n, kRows), first = (n - rows) / 2;
-  const auto assemble = [&] {
+  const int n = static_cast<int>(model.nodes()),
+            rows = std::min(n, std::max(kFewest, kOfThread * static_cast<int>(thread_count())));
+  const auto seconds_from = [&](int first) {
     const auto start = std::chrono::steady_clock::now();
     assembler->assemble(first, first + rows, slab);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
-  const double seconds = assemble();
-  return (seconds < kShort ? std::min(seconds, assemble()) : seconds) / rows;
+  double seconds = seconds_from((n - rows) / 2);
+  const bool has_others = n >= 2 * rows;  // those that are in memory take no time
+  if (seconds < kShort && has_others) seconds = std::min(seconds, seconds_from(0));
+  return seconds / rows;
 }
 
 StoredEstimate sample_compression(const BodyGeometry& geometry, const PrecomputeOptions& options) {

@@ -19,8 +19,8 @@ template <class T>
 struct MatrixSlab {
   using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
   int first = 0, last = 0;
-  std::vector<Matrix> h, g;  ///< lags >= 1, by lag index
-  Matrix stiffness;          ///< D(0) of the inertial form
+  std::vector<Matrix> h, g;   ///< lags >= 1, by lag index
+  Eigen::MatrixXd stiffness;  ///< D(0) of the inertial form, which is part of initial_h
   /// Lag 0: real and, of complex components, imaginary parts, one component after another.
   std::vector<Eigen::MatrixXd> initial_h, initial_g;
 };

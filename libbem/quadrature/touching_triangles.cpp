@@ -107,10 +107,14 @@ struct Box {
 /// Makes the rule of one pair.
 class RuleMaker {
  public:
-  RuleMaker(const TouchingTriangles& pair, const TouchingAccuracy& accuracy)
-      : pair_(pair), accuracy_(accuracy), first_(static_cast<int>(pair.adjacency) - 1) {}
+  RuleMaker(const TouchingTriangles& pair, const TouchingAccuracy& accuracy,
+            std::vector<PairPoint>& points)
+      : pair_(pair),
+        accuracy_(accuracy),
+        first_(static_cast<int>(pair.adjacency) - 1),
+        points_(points) {}
 
-  std::vector<PairPoint> make() {
+  void make() {
     for (int region = 0; region < region_count(pair_.adjacency); ++region) {
       std::vector<Box> boxes = {Box()};
       while (!boxes.empty()) {
@@ -127,7 +131,6 @@ class RuleMaker {
         }
       }
     }
-    return std::move(points_);
   }
 
  private:
@@ -135,7 +138,7 @@ class RuleMaker {
   Vec3 difference(int region, std::array<double, 3> at) const {
     for (int d = 0; d < first_; ++d) at[d] = 1;
     const Places p = places(pair_.adjacency, region, at);
-    const auto& [x, y] = std::pair(pair_.x, pair_.y);
+    const std::array<Vec3, 3>&x = pair_.x, &y = pair_.y;
     return p.x.u * (x[1] - x[0]) + p.x.v * (x[2] - x[1]) - p.y.u * (y[1] - y[0]) -
            p.y.v * (y[2] - y[1]);
   }
@@ -199,15 +202,16 @@ class RuleMaker {
   const TouchingTriangles& pair_;
   const TouchingAccuracy& accuracy_;
   int first_;  ///< direction of (a, b, c) in which |x - y| is not just a factor
-  std::vector<PairPoint> points_;
+  std::vector<PairPoint>& points_;
 };
 
 }  // namespace
 
-std::vector<PairPoint> touching_rule(const TouchingTriangles& pair,
-                                     const TouchingAccuracy& accuracy) {
+void touching_rule(const TouchingTriangles& pair, const TouchingAccuracy& accuracy,
+                   std::vector<PairPoint>& points) {
   require(pair.adjacency != Adjacency::none, "the triangles touch");
-  return RuleMaker(pair, accuracy).make();
+  points.clear();
+  RuleMaker(pair, accuracy, points).make();
 }
 
 }  // namespace bem

@@ -37,8 +37,8 @@ struct TouchingAccuracy {
 /// directions that are left (three about a vertex, two about an edge, one in the same triangle) has
 /// as many Gauss points as the nearest zero of |x - y|^2 at a complex coordinate demands; where
 /// these are too many, as beside slender triangles, the direction is halved. Points of which many
-/// have the same x or the same y stand one after another.
-std::vector<PairPoint> touching_rule(const TouchingTriangles& pair,
-                                     const TouchingAccuracy& accuracy);
+/// have the same x or the same y stand one after another. `points` is overwritten.
+void touching_rule(const TouchingTriangles& pair, const TouchingAccuracy& accuracy,
+                   std::vector<PairPoint>& points);
 
 }  // namespace bem

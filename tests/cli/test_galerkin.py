@@ -85,11 +85,11 @@ class Galerkin(SimulationCase):
         program("bemshape", "box", "--size", 40, 1, 1, "--divisions", 20, 1, 1, "-o", self.folder / "bar.obj")
         (self.folder / "rubber.json").write_text(
             json.dumps({"name": "rubber", "density": 1000, "shear_modulus": 1e5, "poisson_ratio": 0.3}))
-        for inverse in ("dense", "iterative"):
+        for inverse, tolerance in (("dense", 1e-4), ("dense", 1e-3), ("iterative", 1e-4)):
             program("bemprecomp", self.folder / "bar.obj", self.folder / "rubber.json", "-o", self.folder / "long.bem",
-                    "--force", "--quiet", "--dt", 40, "--inverse", inverse, "--measure-growth")
+                    "--force", "--quiet", "--dt", 40, "--inverse", inverse, "--codec-tol", tolerance, "--measure-growth")
             info = json.loads(program("bemprecomp", "--info", self.folder / "long.bem", "--json").stdout)
-            self.assertLess(info["report"]["growth"], 1.0003, inverse)
+            self.assertLess(info["report"]["growth"], 1.0003, (inverse, tolerance))
 
     def test_schemes_and_materials(self):
         """A load that sets in suddenly: vibrations between 0 and 2 about the static stretch, which decay or stay."""

@@ -25,10 +25,16 @@ TouchingTriangles pair_of_height(Adjacency adjacency, double height) {
                                             : std::array<Vec3, 3>{a, e, f}};
 }
 
+std::vector<PairPoint> rule(const TouchingTriangles& pair, const TouchingAccuracy& accuracy) {
+  std::vector<PairPoint> points;
+  touching_rule(pair, accuracy, points);
+  return points;
+}
+
 /// int int 1/|x - y| as a part of the product of the areas.
 double integral(const TouchingTriangles& pair, double tolerance) {
   double sum = 0;
-  for (const PairPoint& p : touching_rule(pair, {3, 2, tolerance}))
+  for (const PairPoint& p : rule(pair, {3, 2, tolerance}))
     sum += p.weight / (place(p.x, pair.x) - place(p.y, pair.y)).norm();
   return sum;
 }
@@ -36,7 +42,7 @@ double integral(const TouchingTriangles& pair, double tolerance) {
 /// int int L_0(x)/|x - y|^3 (x - y), which exists as a principal value.
 Vec3 force(const TouchingTriangles& pair, double tolerance) {
   Vec3 sum = Vec3::Zero();
-  for (const PairPoint& p : touching_rule(pair, {3, 2, tolerance})) {
+  for (const PairPoint& p : rule(pair, {3, 2, tolerance})) {
     const Vec3 r = place(p.x, pair.x) - place(p.y, pair.y);
     sum += p.weight * p.x[0] / std::pow(r.norm(), 3) * r;
   }
@@ -64,7 +70,7 @@ TEST_CASE("rules of touching triangles integrate polynomials exactly") {
   };
   for (const Adjacency adjacency : kAll)
     for (const double height : {1.0, 0.02}) {
-      const auto points = touching_rule(pair_of_height(adjacency, height), {5, 5, 1e-8});
+      const auto points = rule(pair_of_height(adjacency, height), {5, 5, 1e-8});
       for (int a = 0; a <= 2; ++a)
         for (int b = 0; b <= 1; ++b)
           for (int c = 0; c <= 2; ++c) {
@@ -94,7 +100,7 @@ TEST_CASE("rules of touching triangles keep their tolerance, however slender the
 
 TEST_CASE("rules of touching triangles have few points") {
   const auto count = [](Adjacency adjacency, double height) {
-    return touching_rule(pair_of_height(adjacency, height), {3, 2, 1e-6}).size();
+    return rule(pair_of_height(adjacency, height), {3, 2, 1e-6}).size();
   };
   CHECK(count(Adjacency::identical, 1) < 600);
   CHECK(count(Adjacency::edge, 1) < 1700);
