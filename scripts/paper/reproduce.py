@@ -13,6 +13,7 @@ from paper import figures, tables  # noqa: E402
 from paper.catalogue import FIGURES, SCENES  # noqa: E402
 from paper.workspace import ROOT, Failed, Workspace  # noqa: E402
 
+PAPERS, DEFAULTS = ("bdf1", "collocation"), ("radau2", "galerkin")  # scheme and discretisation
 DOCUMENT, IMAGES = ROOT / "docs/paper.md", ROOT / "docs/images/paper"
 
 
@@ -35,7 +36,7 @@ def arguments():
                            if name in (s, scene.figure, "all") and s not in options.scenes]
     if options.threads < 1:
         parser.error("--threads needs a number from 1 on")
-    if options.update_docs and (options.small or (options.scheme, options.discretisation) != ("bdf1", "collocation")):
+    if options.update_docs and (options.small or (options.scheme, options.discretisation) != PAPERS):
         parser.error("the documents show runs in full size with bdf1 and collocation")
     return options
 
@@ -57,6 +58,15 @@ def folder(options):
     return ROOT / "out/paper" / name
 
 
+def defaults(options, workspace):
+    """The workspace of the programs' defaults, if there is one: it stands beside that of the paper's choices."""
+    scheme, discretisation = DEFAULTS
+    beside = argparse.Namespace(small=options.small, scheme=scheme, discretisation=discretisation)
+    if (options.scheme, options.discretisation) != PAPERS or not folder(beside).exists():
+        return None
+    return Workspace(folder(beside), workspace.binaries, options.small, options.threads, scheme, discretisation)
+
+
 def main():
     options = arguments()
     workspace = Workspace(folder(options), programs(), options.small, options.threads, options.scheme,
@@ -69,7 +79,7 @@ def main():
     for figure in FIGURES if "tables" in options.names else sorted(chosen):
         figures.measure(workspace, figure)
         figures.draw(workspace, figure)
-    found = tables.parts(workspace)
+    found = tables.parts(workspace, defaults(options, workspace))
     text = tables.report(found)
     (workspace.folder / "summary.md").write_text(text)
     print(text)

@@ -49,7 +49,17 @@ def load_remark(all_stats):
     return (f" **Preliminary: other programs used up to {others:.1f} cores meanwhile, so these times are too long.**")
 
 
-def table1(workspace):
+def size_and_step(workspace, name):
+    """Cells of a row of Table 1: of a scene that has been run in a workspace."""
+    stats, info = workspace.load(f"{name}.stats"), workspace.load(f"{SCENES[name].body}.info")
+    if not (stats and info):
+        return ["–", "–"]
+    early = "" if stats["outcome"] == "complete" else f" (failed after {stats['steps']} steps)"
+    return [f"{info['bytes'] / 1e9:.3g}", seconds(total(stats)) + early]
+
+
+def table1(workspace, defaults=None):
+    """`defaults`: the workspace of the same scenes with the programs' defaults, for two more columns."""
     rows, seen = [], []
     for name, scene in SCENES.items():
         stats, info = workspace.load(f"{name}.stats"), workspace.load(f"{scene.body}.info")
@@ -67,7 +77,8 @@ def table1(workspace):
         rows.append([scene.row + early, scene.figure[3:], count, f"{stats['time_step']:g}",
                      f"{info['scheme']['history_length'] if 'scheme' in info else 0} / {paper.history if paper else '–'}",
                      f"{info['bytes'] / 1e9:.3g} / {paper.size if paper else '–'}", *phases,
-                     f"{seconds(ours)} / {seconds(theirs)}", f"{theirs / ours:.0f}" if paper else "–"])
+                     f"{seconds(ours)} / {seconds(theirs)}", f"{theirs / ours:.0f}" if paper else "–",
+                     *(size_and_step(defaults, name) if defaults else [])])
     if not rows:
         return ""
     head = ["scene", "Fig.", "N", "dt [s]", "n_max", "size [GB]", "unconstrained [s]", "collision [s]",
@@ -75,7 +86,10 @@ def table1(workspace):
     threads = sorted({s["threads"] for s in seen})
     note = "Coarse meshes, nothing to compare with the paper's. " if workspace.small else ""
     note += (f"Cells with two values: ours / the paper's. Ours: {machine()}, bemsim on "
-            f"{' or '.join(map(str, threads))} thread{'s' if threads != [1] else ''}.{load_remark(seen)}")
+             f"{' or '.join(map(str, threads))} thread{'s' if threads != [1] else ''}.{load_remark(seen)}")
+    if defaults:
+        head += ["defaults: size [GB]", "defaults: step [s]"]
+        note += " The last two columns are of the same scenes with the programs' defaults, galerkin and radau2."
     return note + "\n\n" + table(head, rows)
 
 
@@ -118,9 +132,9 @@ def table_fig9(numbers):
                    f"{100 * n['narrowest_section']:.0f} %, {100 * n['widest_section']:.0f} %", share(n["self_penetration"])] for name, n in numbers.items()])
 
 
-def parts(workspace):
+def parts(workspace, defaults=None):
     """Markdown by name: table1 and fig1 ... of what has been measured."""
-    found = {"table1": table1(workspace)}
+    found = {"table1": table1(workspace, defaults)}
     for figure in FIGURES:
         numbers = workspace.load(figure)
         found[figure] = globals()[f"table_{figure}"](numbers) if numbers else ""

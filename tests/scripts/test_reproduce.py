@@ -155,6 +155,15 @@ class Tables(Folder):
         self.assertTrue(row.endswith("| 0.04 / 0.261 | 7 |"), row)
         self.assertEqual(text.count("\n| "), 2 + len(SCENES))
 
+    def test_the_defaults_stand_beside_the_papers_choices(self):
+        workspace, defaults = self.workspace(0.0), Workspace(self.folder / "defaults", ".")
+        for part in ("stats", "info"):
+            name = "fig4-torus.stats" if part == "stats" else "torus.info"
+            defaults.save(name, workspace.load(name))
+        lines = tables.table1(workspace, defaults).splitlines()
+        self.assertTrue(next(line for line in lines if line.startswith("| torus |")).endswith("| 7 | 2 | 0.04 |"))
+        self.assertTrue(next(line for line in lines if line.startswith("| fish |")).endswith("| – | – |"))
+
     def test_a_run_that_ended_early_says_so(self):
         workspace = self.workspace(0.0)
         workspace.save("fig4-torus.stats", {**workspace.load("fig4-torus.stats"), "outcome": "failed"})
