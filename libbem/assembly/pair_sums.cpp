@@ -6,93 +6,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // clang-format off: after foreach_target.h
-#include "assembly/lane_sums-inl.hpp"
+#include "assembly/pair_kernels-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace bem {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr int kPairCapacity = PairBatch::kCapacity;
-
-// Rows of PairScratch::coefficient: 3x3 tensors of the functions.
-enum : int {
-  kOfAlpha = 0,
-  kOfBeta = kOfAlpha + 9,
-  kOfGamma = kOfBeta + 9,
-  kOfDelta = kOfGamma + 9,
-  kOfEpsilon = kOfDelta + 9,
-  kOfP = kOfEpsilon + 9,
-  kOfQ = kOfP + 9,
-  kOfS = kOfQ + 9,
-  kOfDilation = kOfS + 9,
-};
-static_assert(kOfDilation + 3 == PairScratch<double>::kCoefficients);
-
-/// Tensor coefficients of points y seen from one x, lanes over points; also finds the table
-/// intervals. normal(axis, q): of y.
-template <class T, class Normal>
-void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const Vec3& normal_at_x,
-                      const double (*offset)[kPairCapacity], const Normal& normal, int padded_size,
-                      PairScratch<T>& scratch) {
-  const hn::CappedTag<T, PairBatch::kPadding> d;
-  using V = hn::Vec<decltype(d)>;
-  const auto set = [&d](double value) { return hn::Set(d, static_cast<T>(value)); };
-  const V m[3] = {set(normal_at_x[0]), set(normal_at_x[1]), set(normal_at_x[2])};
-  const V one = set(1.0);
-  const V inertia_scale = set(scales.density / (4 * kPi)), adjoint_scale = set(-1 / (4 * kPi));
-  const V normal_part = set(1 - 2 * scales.kappa), other_part = set(2 * scales.kappa);
-  alignas(64) T intervals[kPairCapacity];
-  for (int q = 0; q < padded_size; q += static_cast<int>(hn::Lanes(d))) {
-    const V x = LoadPoints(d, offset[0] + q), y = LoadPoints(d, offset[1] + q),
-            z = LoadPoints(d, offset[2] + q);
-    const V n[3] = {normal(d, 0, q), normal(d, 1, q), normal(d, 2, q)};
-    const V r = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
-    const V inverse = hn::Div(one, r);
-    const V h[3] = {hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse)};
-    const auto dot = [&h](const V* v) {
-      return hn::MulAdd(h[0], v[0], hn::MulAdd(h[1], v[1], hn::Mul(h[2], v[2])));
-    };
-    const V hm = dot(m), hn_ = dot(n);
-    const V mn = hn::MulAdd(m[0], n[0], hn::MulAdd(m[1], n[1], hn::Mul(m[2], n[2])));
-
-    StorePlaces(d, table, r, scales.lam_per_distance, intervals + q, scratch.local + q);
-
-    const auto store = [&](int row, V value) { hn::Store(value, d, scratch.coefficient[row] + q); };
-    const V s = hn::Mul(inertia_scale, inverse);
-    const V shm = hn::Mul(s, hm), shn = hn::Mul(s, hn_), smn = hn::Mul(s, mn);
-    const V shmn = hn::Mul(shm, hn_), chm = hn::Mul(adjoint_scale, hm);
-    for (int i = 0; i < 3; ++i)
-      for (int l = 0; l < 3; ++l) {
-        const int e = 3 * i + l;
-        const V hh = hn::Mul(h[i], h[l]), hm_il = hn::Mul(h[i], m[l]), nh = hn::Mul(n[i], h[l]);
-        V alpha = hn::Mul(s, hn::Mul(n[i], m[l]));
-        V beta = hn::MulAdd(shm, nh, hn::MulAdd(shn, hm_il, hn::Mul(smn, hh)));
-        V p = hn::Mul(adjoint_scale, hm_il);
-        if (i == l) {
-          alpha = hn::Add(alpha, smn);
-          beta = hn::Add(beta, shmn);
-          p = hn::Add(p, chm);
-        }
-        const V mh = hn::Mul(m[i], h[l]);
-        store(kOfAlpha + e, alpha);
-        store(kOfBeta + e, beta);
-        store(kOfGamma + e, hn::Mul(s, hn::Mul(m[i], n[l])));
-        store(kOfDelta + e, hn::MulAdd(shn, mh, hn::Mul(shm, hn::Mul(h[i], n[l]))));
-        store(kOfEpsilon + e, hn::Mul(shmn, hh));
-        store(kOfP + e, p);
-        store(kOfQ + e, hn::Mul(adjoint_scale, mh));
-        store(kOfS + e, hn::Mul(chm, hh));
-      }
-    const V along_m = hn::Mul(hn::Mul(adjoint_scale, normal_part), hn_);
-    const V along_n = hn::Mul(chm, other_part);
-    for (int i = 0; i < 3; ++i)
-      store(kOfDilation + i, hn::MulAdd(along_m, m[i], hn::Mul(along_n, n[i])));
-  }
-  for (int q = 0; q < padded_size; ++q)
-    scratch.interval[q] = table.interval(static_cast<int>(intervals[q]));
-}
 
 template <class T>
 void LoadShapes(const PairBatch& batch, PairScratch<T>& scratch) {
@@ -103,26 +23,6 @@ void LoadShapes(const PairBatch& batch, PairScratch<T>& scratch) {
   for (int a = 0; a < PairBatch::kRows; ++a)
     for (int f = 0; f < batch.fibres; ++f)
       scratch.staying[a][f] = static_cast<T>(batch.staying[a][f]);
-}
-
-/// The first radial function that is wanted, with Z or without it: those of J come last.
-template <bool with_inertia>
-constexpr int kFirstFunction = with_inertia ? kAlpha : kDynamicP;
-
-/// The radial functions from `first` on at one point for a vector of lanes.
-template <int first, class D, class T = hn::TFromD<D>>
-HWY_INLINE void EvaluateRadial(D d, std::size_t stride, const T* HWY_RESTRICT c, T local,
-                               hn::Vec<D> (&f)[kHypersingularCount]) {
-  constexpr int kNodes = LaneTable<T>::kNodes;
-  const hn::Vec<D> t = hn::Set(d, local);
-#pragma GCC unroll 9
-  for (int k = first; k < kHypersingularCount; ++k)
-    f[k] = hn::LoadU(d, c + (k * kNodes + kNodes - 1) * stride);
-#pragma GCC unroll 8
-  for (int degree = kNodes - 2; degree >= 0; --degree)
-#pragma GCC unroll 9
-    for (int k = first; k < kHypersingularCount; ++k)
-      f[k] = hn::MulAdd(f[k], t, hn::LoadU(d, c + (k * kNodes + degree) * stride));
 }
 
 /// The same at the points of a fibre: radial[function][point].
@@ -329,173 +229,15 @@ void AccumulatePair(const LaneTable<T>& table, const PairScales& scales, const V
   accumulate(table, batch, scratch, sums);
 }
 
-/// One vector of lanes of MidpointSums.
-template <bool with_inertia, class D, class T = hn::TFromD<D>>
-HWY_INLINE void EvaluateMidpointLanes(D d, std::size_t lane, const LaneTable<T>& table, int size,
-                                      PairScratch<T>& scratch, const MidpointSums<T>& sums) {
-  using V = hn::Vec<D>;
-  const std::size_t stride = table.padded_lanes;
-  V pressure[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  for (int q = 0; q < size; ++q) {
-    V f[kHypersingularCount];
-    EvaluateRadial<kFirstFunction<with_inertia>>(d, stride, scratch.interval[q] + lane,
-                                                 scratch.local[q], f);
-    const auto at = [&](int row) { return hn::Set(d, scratch.coefficient[row][q]); };
-    T* HWY_RESTRICT adjoint = sums.adjoint + 9 * q * stride + lane;
-    const V area = hn::Set(d, scratch.moving[0][q]);
-    const V p = hn::Mul(area, f[kDynamicP]), s = hn::Mul(area, f[kDynamicS]),
-            t = hn::Mul(area, f[kDynamicQ]);
-#pragma GCC unroll 9
-    for (int e = 0; e < 9; ++e) {
-      if constexpr (with_inertia) {
-        V z = hn::Mul(at(kOfAlpha + e), f[kAlpha]);
-        z = hn::MulAdd(at(kOfBeta + e), f[kBeta], z);
-        z = hn::MulAdd(at(kOfGamma + e), f[kGamma], z);
-        z = hn::MulAdd(at(kOfDelta + e), f[kDelta], z);
-        z = hn::MulAdd(at(kOfEpsilon + e), f[kEpsilon], z);
-        hn::StoreU(z, d, sums.inertia + (9 * q + e) * stride + lane);
-      }
-      V j = hn::Mul(at(kOfP + e), p);
-      j = hn::MulAdd(at(kOfQ + e), t, j);
-      j = hn::MulAdd(at(kOfS + e), s, j);
-      hn::StoreU(j, d, adjoint + e * stride);
-    }
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i)
-      pressure[i] = hn::MulAdd(at(kOfDilation + i), f[kDilation], pressure[i]);
-  }
-  for (int i = 0; i < 3; ++i) hn::StoreU(pressure[i], d, sums.uniform + (27 + i) * stride + lane);
-  for (int i = 0; i < 3; ++i) {
-    V sum[9];
-#pragma GCC unroll 9
-    for (V& v : sum) v = hn::Zero(d);
-    for (int q = 0; q < size; ++q) {
-      const T* HWY_RESTRICT adjoint = sums.adjoint + (9 * q + 3 * i) * stride + lane;
-#pragma GCC unroll 3
-      for (int l = 0; l < 3; ++l) {
-        const V j = hn::LoadU(d, adjoint + l * stride);
-#pragma GCC unroll 3
-        for (int k = 0; k < 3; ++k)
-          sum[3 * l + k] = hn::MulAdd(j, hn::Set(d, scratch.moving[1 + k][q]), sum[3 * l + k]);
-      }
-    }
-#pragma GCC unroll 9
-    for (int k = 0; k < 9; ++k) hn::StoreU(sum[k], d, sums.uniform + (9 * i + k) * stride + lane);
-  }
-}
-
-template <class T>
-void EvaluateMidpoints(const LaneTable<T>& table, const PairScales& scales, const Vec3& m,
-                       const MidpointBatch& batch, PairScratch<T>& scratch,
-                       const MidpointSums<T>& sums) {
-  const auto normal = [&batch](auto d, int axis, int q) {
-    return LoadPoints(d, batch.n[axis] + q);
-  };
-  PairCoefficients(table, scales, m, batch.r, normal, batch.padded_size(), scratch);
-  for (int q = 0; q < batch.size; ++q) {
-    scratch.moving[0][q] = static_cast<T>(batch.area[q]);
-    for (int k = 0; k < 3; ++k)
-      scratch.moving[1 + k][q] = static_cast<T>(batch.n[k][q] / batch.area[q]);
-  }
-  ForLanes<T>(table.padded_lanes, [&](auto d, std::size_t lane) {
-    if (sums.inertia)
-      EvaluateMidpointLanes<true>(d, lane, table, batch.size, scratch, sums);
-    else
-      EvaluateMidpointLanes<false>(d, lane, table, batch.size, scratch, sums);
-  });
-}
-
-/// `count` vectors of a row of CombineRows().
-template <int count, class D, class T = hn::TFromD<D>>
-HWY_INLINE void CombineRow(D d, const SparseRows& rows, int row, const T* from, std::size_t size,
-                           T* to) {
-  using V = hn::Vec<D>;
-  V sum[count];
-#pragma GCC unroll 8
-  for (int i = 0; i < count; ++i) sum[i] = hn::Zero(d);
-  for (int k = rows.begin[row]; k < rows.begin[row + 1]; ++k) {
-    const V value = hn::Set(d, static_cast<T>(rows.values[k]));
-    const T* HWY_RESTRICT source = from + rows.items[k] * size;
-#pragma GCC unroll 8
-    for (int i = 0; i < count; ++i)
-      sum[i] = hn::MulAdd(value, hn::LoadU(d, source + i * hn::Lanes(d)), sum[i]);
-  }
-#pragma GCC unroll 8
-  for (int i = 0; i < count; ++i) hn::StoreU(sum[i], d, to + i * hn::Lanes(d));
-}
-
-template <class T>
-void CombineRows(const SparseRows& rows, const T* from, std::size_t size, T* to) {
-  const WholeVector<T> d;
-  constexpr std::size_t kTogether = 8;
-  const std::size_t most = kTogether * hn::Lanes(d);
-  for (int row = 0; row < rows.rows(); ++row) {
-    T* const out = to + row * size;
-    std::size_t at = 0;
-    for (; at + most <= size; at += most)
-      CombineRow<kTogether>(d, rows, row, from + at, size, out + at);
-    ForLanes<T>(size - at, [&](auto tag, std::size_t rest) {
-      CombineRow<1>(tag, rows, row, from + at + rest, size, out + at + rest);
-    });
-  }
-}
-
-template <class T>
-void AddStrain(const T* HWY_RESTRICT uniform, int padded_lanes,
-               const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-               T* HWY_RESTRICT out) {
-  const std::size_t stride = padded_lanes;
-  ForLanes<T>(stride, [&](auto d, std::size_t lane) {
-    using V = hn::Vec<decltype(d)>;
-    const auto sum = [&](int entry) { return hn::LoadU(d, uniform + entry * stride + lane); };
-    for (int i = 0; i < 3; ++i) {
-      const V j[3] = {sum(3 * i), sum(3 * i + 1), sum(3 * i + 2)}, p = sum(9 + i);
-      for (int c = 0; c < 6; ++c) {
-        T* HWY_RESTRICT to = out + (i * 6 + c) * stride + lane;
-        V total = hn::MulAdd(hn::Set(d, static_cast<T>(pressure[c])), p, hn::LoadU(d, to));
-        for (int l = 0; l < 3; ++l)
-          total = hn::MulAdd(hn::Set(d, static_cast<T>(tractions(l, c))), j[l], total);
-        hn::StoreU(total, d, to);
-      }
-    }
-  });
-}
-
 void AccumulatePairDouble(const LaneTable<double>& table, const PairScales& scales, const Vec3& m,
                           const Vec3& n, const PairBatch& batch, PairScratch<double>& scratch,
                           const PairSums<double>& sums) {
   AccumulatePair(table, scales, m, n, batch, scratch, sums);
 }
-void EvaluateMidpointsDouble(const LaneTable<double>& table, const PairScales& scales,
-                             const Vec3& m, const MidpointBatch& batch,
-                             PairScratch<double>& scratch, const MidpointSums<double>& sums) {
-  EvaluateMidpoints(table, scales, m, batch, scratch, sums);
-}
-void CombineRowsDouble(const SparseRows& rows, const double* from, std::size_t size, double* to) {
-  CombineRows(rows, from, size, to);
-}
-void AddStrainDouble(const double* uniform, int padded_lanes,
-                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-                     double* out) {
-  AddStrain(uniform, padded_lanes, tractions, pressure, out);
-}
 void AccumulatePairFloat(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
                          const Vec3& n, const PairBatch& batch, PairScratch<float>& scratch,
                          const PairSums<float>& sums) {
   AccumulatePair(table, scales, m, n, batch, scratch, sums);
-}
-void EvaluateMidpointsFloat(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
-                            const MidpointBatch& batch, PairScratch<float>& scratch,
-                            const MidpointSums<float>& sums) {
-  EvaluateMidpoints(table, scales, m, batch, scratch, sums);
-}
-void CombineRowsFloat(const SparseRows& rows, const float* from, std::size_t size, float* to) {
-  CombineRows(rows, from, size, to);
-}
-void AddStrainFloat(const float* uniform, int padded_lanes,
-                    const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-                    float* out) {
-  AddStrain(uniform, padded_lanes, tractions, pressure, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -511,19 +253,6 @@ namespace bem {
 
 HWY_EXPORT(AccumulatePairDouble);
 HWY_EXPORT(AccumulatePairFloat);
-HWY_EXPORT(EvaluateMidpointsDouble);
-HWY_EXPORT(EvaluateMidpointsFloat);
-HWY_EXPORT(CombineRowsDouble);
-HWY_EXPORT(CombineRowsFloat);
-HWY_EXPORT(AddStrainDouble);
-HWY_EXPORT(AddStrainFloat);
-
-void PairBatch::pad() {
-  for (int q = size; q < padded_size(); ++q) {
-    for (auto& component : r) component[q] = component[0];
-    for (auto& shape : moving) shape[q] = 0;
-  }
-}
 
 void accumulate_pair(const LaneTable<double>& table, const PairScales& scales, const Vec3& m,
                      const Vec3& n, const PairBatch& batch, PairScratch<double>& scratch,
@@ -531,41 +260,10 @@ void accumulate_pair(const LaneTable<double>& table, const PairScales& scales, c
   HWY_DYNAMIC_DISPATCH(AccumulatePairDouble)(table, scales, m, n, batch, scratch, sums);
 }
 
-void evaluate_midpoints(const LaneTable<double>& table, const PairScales& scales, const Vec3& m,
-                        const MidpointBatch& batch, PairScratch<double>& scratch,
-                        const MidpointSums<double>& sums) {
-  HWY_DYNAMIC_DISPATCH(EvaluateMidpointsDouble)(table, scales, m, batch, scratch, sums);
-}
-
-void combine_rows(const SparseRows& rows, const double* from, std::size_t size, double* to) {
-  HWY_DYNAMIC_DISPATCH(CombineRowsDouble)(rows, from, size, to);
-}
-
-void add_strain(const double* uniform, int padded_lanes,
-                const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
-                double* out) {
-  HWY_DYNAMIC_DISPATCH(AddStrainDouble)(uniform, padded_lanes, tractions, pressure, out);
-}
-
 void accumulate_pair(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
                      const Vec3& n, const PairBatch& batch, PairScratch<float>& scratch,
                      const PairSums<float>& sums) {
   HWY_DYNAMIC_DISPATCH(AccumulatePairFloat)(table, scales, m, n, batch, scratch, sums);
-}
-
-void evaluate_midpoints(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
-                        const MidpointBatch& batch, PairScratch<float>& scratch,
-                        const MidpointSums<float>& sums) {
-  HWY_DYNAMIC_DISPATCH(EvaluateMidpointsFloat)(table, scales, m, batch, scratch, sums);
-}
-
-void combine_rows(const SparseRows& rows, const float* from, std::size_t size, float* to) {
-  HWY_DYNAMIC_DISPATCH(CombineRowsFloat)(rows, from, size, to);
-}
-
-void add_strain(const float* uniform, int padded_lanes,
-                const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure, float* out) {
-  HWY_DYNAMIC_DISPATCH(AddStrainFloat)(uniform, padded_lanes, tractions, pressure, out);
 }
 
 void accumulate_pair_reference(const LaneTable<double>& table, const PairScales& scales,

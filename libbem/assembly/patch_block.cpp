@@ -2,6 +2,7 @@
 
 #include "algebra/blas.hpp"
 #include "assembly/galerkin_static.hpp"
+#include "assembly/lane_rows.hpp"
 #include "assembly/static_sums.hpp"
 #include "kernels/tensors.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "assembly/midpoint_sums.hpp"
 #include "assembly/pair_integrals.hpp"
 #include "assembly/surface_patch.hpp"
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "assembly/pair_batch.hpp"
+#include "kernels/radial_table.hpp"
+
+namespace bem {
+
+/// Points y that are seen from one point x, each with a normal of its own.
+struct MidpointBatch {
+  static constexpr int kCapacity = PairBatch::kCapacity;
+
+  int size = 0;
+  double r[3][kCapacity];  ///< y - x [m]
+  double n[3][kCapacity];  ///< normals at y times areas [m^2]
+  double area[kCapacity];  ///< of y [m^2]
+
+  /// Entries up to here have to be filled with something.
+  int padded_size() const {
+    return (size + PairBatch::kPadding - 1) / PairBatch::kPadding * PairBatch::kPadding;
+  }
+};
+
+/// Where the kernels of one x and many y go; normals at both ends times their areas. Arrays end in
+/// [padded lane].
+template <class T>
+struct MidpointSums {
+  static constexpr int kUniform = 30;
+
+  T* inertia;  ///< Z: [y][9 entries]; null: not wanted
+  T* adjoint;  ///< J times the area of y: [y][9 entries]
+  T* uniform;  ///< sums over y: J_il n_k at 9 i + 3 l + k, then pressure_kernel(): 3
+};
+
+/// Stores the kernels between a point x, whose normal times its area is m, and others.
+void evaluate_midpoints(const LaneTable<double>& table, const PairScales& scales, const Vec3& m,
+                        const MidpointBatch& batch, PairScratch<double>& scratch,
+                        const MidpointSums<double>& sums);
+void evaluate_midpoints(const LaneTable<float>& table, const PairScales& scales, const Vec3& m,
+                        const MidpointBatch& batch, PairScratch<float>& scratch,
+                        const MidpointSums<float>& sums);
+
+}  // namespace bem
