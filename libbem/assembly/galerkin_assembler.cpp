@@ -1,6 +1,7 @@
 #include "assembly/galerkin_assembler.hpp"
 
 #include "assembly/galerkin_static.hpp"
+#include "base/denormals.hpp"
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "base/parallel.hpp"
@@ -84,6 +85,7 @@ void GalerkinAssembler::assemble_rows(int first, int last, MatrixForm form,
   for (std::size_t begin = 0; begin < patches_.size(); begin += together) {
     const std::size_t some = std::min(together, patches_.size() - begin);
     parallel_for(some, [&](std::size_t i) {
+      const FlushDenormals flush;
       const SurfacePatch& y = patches_[begin + i];
       blocks[i].clear(count, y, lanes.padded_lanes);
       for (std::size_t k = 0; k < patches.size(); ++k) {
@@ -93,6 +95,7 @@ void GalerkinAssembler::assemble_rows(int first, int last, MatrixForm form,
       }
     });
     parallel_for(count, [&](std::size_t row) {
+      const FlushDenormals flush;
       for (std::size_t i = 0; i < some; ++i)
         add_block_row(patches_[begin + i], blocks[i], static_cast<int>(row), rows);
     });

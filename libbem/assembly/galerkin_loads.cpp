@@ -1,5 +1,6 @@
 #include "assembly/galerkin_assembler.hpp"
 #include "assembly/galerkin_static.hpp"
+#include "base/denormals.hpp"
 #include "base/interruption.hpp"
 #include "base/parallel.hpp"
 
@@ -78,8 +79,10 @@ std::vector<Eigen::MatrixXd> GalerkinAssembler::assemble_loads(const std::vector
   const std::size_t stride = lanes.padded_lanes;
   const Eigen::Index cases = loads.at(0).traction.cols();
   std::vector<LoadPart<T>> parts(bases_.size());
-  parallel_for(bases_.size(),
-               [&](std::size_t t) { sum_loads(static_cast<int>(t), loads, lanes, parts[t]); });
+  parallel_for(bases_.size(), [&](std::size_t t) {
+    const FlushDenormals flush;
+    sum_loads(static_cast<int>(t), loads, lanes, parts[t]);
+  });
   const auto n = static_cast<Eigen::Index>(3 * mesh_.vertices.size());
   Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(n, cases);
   std::vector<Eigen::MatrixXd> out(count, Eigen::MatrixXd::Zero(n, cases));
