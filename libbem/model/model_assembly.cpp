@@ -96,7 +96,8 @@ struct Targets {
   std::unique_ptr<FamilyBuilder<T>> h, g;                               ///< lags, if any
   std::unique_ptr<FamilyBuilder<T>> stiffness;                          ///< of the inertial form
   std::vector<std::unique_ptr<FamilyBuilder<T>>> initial_h, initial_g;  ///< by initial component
-  std::vector<InitialMatrix> dense_h, dense_g;  ///< the same, to be inverted; H_0 without D(0)
+  std::vector<InitialMatrix> dense_h, dense_g;  ///< the same, to be inverted
+  bool without_stiffness = false;               ///< D(0) is left out of dense_h
   double g_part = 1;                            ///< CompressedBuilders::g_part()
   std::optional<MatrixSlab<T>> known;           ///< a slab that is assembled already
 };
@@ -117,7 +118,7 @@ void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vect
     if (!targets.stiffness) return;
     const typename MatrixSlab<T>::Matrix rows = slab.stiffness.template cast<T>();
     targets.stiffness->add_rows({view(rows)});
-    if (targets.dense_h.empty()) return;
+    if (!targets.without_stiffness) return;
     for_each_initial(model.discretisation.scheme,
                      [&](std::size_t, int part, int) { slab.initial_h[part] -= slab.stiffness; });
   };
@@ -174,15 +175,6 @@ void make_regular(const BodyModel& model, std::vector<InitialMatrix>& h) {
   h.at(0).form = MatrixForm::general;
 }
 
-/// What the slabs have left out of H_0. Of the inertial form that is D(0), which is taken as it is
-/// stored: a step multiplies H_0^{-1} by D(0) u, and slow motions do not grow however coarsely D(0)
-/// is stored if both are of the same symmetric matrix.
-void complete(std::vector<InitialMatrix>& h, const BodyModel& model) {
-  if (model.stiffness)
-    for (InitialMatrix& m : h) m.add(*model.stiffness);
-  make_regular(model, h);
-}
-
 /// Takes a builder's family; returns its error.
 template <class T>
 double finish(FamilyBuilder<T>& builder, std::unique_ptr<MatrixFamily>& family) {
@@ -230,7 +222,7 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
   }
   assemble_all(*assembler, model, direct_slabs(options.codec, n), targets, progress);
   take_families(targets, model);
-  complete(targets.dense_h, model);
+  make_regular(model, targets.dense_h);
   for (std::size_t i = 0; i < targets.dense_h.size(); ++i)
     invert_dense(model, std::move(targets.dense_h[i]), tractions ? &targets.dense_g[i] : nullptr,
                  options.codec, progress);
@@ -337,7 +329,10 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
   if (assembler.is_inertial())
     targets.stiffness =
         builders.stiffness(stiffness_codec(options.codec).tolerance, least_stiffness(model));
-  if (!iterative) targets.dense_h = dense_matrices(model, assembler.form());
+  if (!iterative) {
+    targets.dense_h = dense_matrices(model, assembler.form());
+    targets.without_stiffness = assembler.is_inertial();
+  }
   for_each_initial(model.discretisation.scheme, [&](std::size_t, int part, int parts) {
     if (iterative) targets.initial_h.push_back(builders.initial_h(part, parts));
     if (tractions)
@@ -356,7 +351,11 @@ void assemble_compressed(BodyModel& model, const PrecomputeOptions& options,
   assemble_all(*assembler, model, slabs, targets, progress);
   take_families(targets, model);
   if (options.inverse == InverseKind::iterative) return;
-  complete(targets.dense_h, model);
+  // a step multiplies H_0^{-1} by D(0) u: slow motions do not grow however coarsely D(0) is stored
+  // if both are of the same symmetric matrix
+  if (targets.without_stiffness)
+    for (InitialMatrix& h : targets.dense_h) h.add(*model.stiffness);
+  make_regular(model, targets.dense_h);
   const std::vector<std::unique_ptr<MatrixFamily>> initial_g = std::move(model.initial_g);
   model.initial_g.clear();
   model.report.codec_errors.initial_g = 0;  // not in the model
