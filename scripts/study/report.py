@@ -1,4 +1,4 @@
-"""Puts tables and plots together, and into docs/accuracy.md between its markers."""
+"""Puts tables and plots together, and into the documents between their markers."""
 import pathlib
 import shutil
 
@@ -9,7 +9,7 @@ from . import plots, tables
 from .settings import Setting, in_both
 from .tables import SCENES
 
-DOCUMENT, IMAGES = ROOT / "docs/accuracy.md", ROOT / "docs/images/study"
+DOCUMENTS, IMAGES = (ROOT / "docs/accuracy.md", ROOT / "docs/choosing.md"), ROOT / "docs/images/study"
 PHASES_OF = (("rod-fixed", Setting(2, 40)), ("rod-fixed", Setting(4, 80)), ("rod-fixed", Setting(7, 20)),
              ("sphere", Setting(6, 18)), ("sphere", Setting(10, 6)), ("beam", Setting(6, 80)), ("slide", Setting(2, 128)))
 
@@ -52,10 +52,11 @@ def summary(found):
 
 
 def update_docs(found, out):
-    """Fills the markers that the document has; plots into docs/images/study."""
-    document = DOCUMENT.read_text()
-    there = {name: text for name, text in parts(found).items() if f"<!-- {name} -->" in document}
-    DOCUMENT.write_text(inserted(document, there))
+    """Fills the markers that the documents have; plots into docs/images/study."""
+    for path in DOCUMENTS:
+        document = path.read_text()
+        there = {name: text for name, text in parts(found).items() if f"<!-- {name} -->" in document}
+        path.write_text(inserted(document, there))
     IMAGES.mkdir(parents=True, exist_ok=True)
     for picture in pathlib.Path(out).glob("*.svg"):
         shutil.copy(picture, IMAGES)
