@@ -52,14 +52,16 @@ def summary(found):
 
 
 def update_docs(found, out):
-    """Fills the markers that the documents have; plots into docs/images/study."""
+    """Fills the markers that the documents have; plots that they show into docs/images/study."""
     for path in DOCUMENTS:
         document = path.read_text()
         there = {name: text for name, text in parts(found).items() if f"<!-- {name} -->" in document}
         path.write_text(inserted(document, there))
     IMAGES.mkdir(parents=True, exist_ok=True)
+    shown = "".join(path.read_text() for path in DOCUMENTS)
     for picture in pathlib.Path(out).glob("*.svg"):
-        shutil.copy(picture, IMAGES)
+        if f"images/study/{picture.name}" in shown:
+            shutil.copy(picture, IMAGES)
 
 
 def draw(found, out):
