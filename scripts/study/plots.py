@@ -1,4 +1,7 @@
 """Error against CPU seconds as small SVG files."""
+import io
+import re
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -30,8 +33,12 @@ def dress(axes, text):
 
 def save(figure, path):
     figure.tight_layout(pad=0.4)
-    figure.savefig(path, metadata={"Date": None})
+    text = io.StringIO()
+    figure.savefig(text, format="svg", metadata={"Date": None})
     plt.close(figure)
+    # small: without indentation and names, and to a hundredth of a point
+    flat = re.sub(r' id="[a-z0-9]+_\d+"|(?<=\n) +', "", text.getvalue())
+    path.write_text(re.sub(r"(\d\.\d\d)\d+", r"\1", flat))
 
 
 def front(axes, points, colour, style="-"):
@@ -53,9 +60,12 @@ def draw_scene(found, scene, path):
                               (panels[2], lambda r: peak_memory(r) / 1e6, "memory [MB]")):
         for discretisation, part in by_discretisation.items():
             front(axes, [(cost(r), r["error"]) for r in part.values()], "black", "--" if discretisation == COLLOCATION else "-")
+            alike = {}  # points that look the same are one element of the file
             for r in part.values():
-                axes.plot(cost(r), r["error"], MARKERS[meshes.index(r["mesh"]) % len(MARKERS)], markersize=4, zorder=2,
-                          color=COLOURS.get(r["scheme"], "black"), fillstyle="none" if discretisation == COLLOCATION else "full",
+                alike.setdefault((r["scheme"], r["mesh"]), []).append((cost(r), r["error"]))
+            for (scheme, mesh), points in alike.items():
+                axes.plot(*zip(*points), MARKERS[meshes.index(mesh) % len(MARKERS)], markersize=4, zorder=2,
+                          color=COLOURS.get(scheme, "black"), fillstyle="none" if discretisation == COLLOCATION else "full",
                           markeredgewidth=0.7)
         dress(axes, label)
     panels[0].set_ylabel(f"error / {PROBLEMS[SCENES[scene]].scale}")

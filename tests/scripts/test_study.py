@@ -176,7 +176,7 @@ class Tables(unittest.TestCase):
         pictures = list((ROOT / "docs/images/study").glob("*.svg"))
         self.assertGreaterEqual(len(pictures), 6)
         for picture in pictures:
-            self.assertLess(picture.stat().st_size, 120e3, picture.name)
+            self.assertLess(picture.stat().st_size, 80e3, picture.name)
             self.assertIn(f"images/study/{picture.name}", document)
 
 
