@@ -23,8 +23,8 @@ def arguments():
                         f"({', '.join(FIGURES)}), all, or tables: measures and draws again what has been run")
     parser.add_argument("--small", action="store_true", help="coarse meshes and few steps: all of it in minutes")
     parser.add_argument("--threads", type=int, default=1, metavar="N", help="of bemsim (1, as in the paper)")
-    parser.add_argument("--scheme", default="bdf1", help="of the archives (bdf1, as in the paper)")
-    parser.add_argument("--discretisation", default="collocation", choices=["collocation", "galerkin"],
+    parser.add_argument("--scheme", default=PAPERS[0], help="of the archives (bdf1, as in the paper)")
+    parser.add_argument("--discretisation", default=PAPERS[1], choices=["collocation", "galerkin"],
                         help="of the archives (collocation, as in the paper)")
     parser.add_argument("--update-docs", action="store_true", help="puts tables and pictures into docs")
     options = parser.parse_args()
@@ -51,25 +51,23 @@ def programs():
     return ROOT / "build/release/bin"
 
 
-def folder(options):
+def folder(small, scheme, discretisation):
     """out/paper, and beside its archives what other meshes, schemes or discretisations need in a folder of its own."""
-    name = "-".join(["small"] * options.small + [options.scheme.replace(":", "")] * (options.scheme != "bdf1") +
-                    [options.discretisation] * (options.discretisation != "collocation"))
-    return ROOT / "out/paper" / name
+    others = [word.replace(":", "") for word, own in zip((scheme, discretisation), PAPERS) if word != own]
+    return ROOT / "out/paper" / "-".join(["small"] * small + others)
 
 
 def defaults(options, workspace):
     """The workspace of the programs' defaults, if there is one: it stands beside that of the paper's choices."""
-    scheme, discretisation = DEFAULTS
-    beside = argparse.Namespace(small=options.small, scheme=scheme, discretisation=discretisation)
-    if (options.scheme, options.discretisation) != PAPERS or not folder(beside).exists():
+    beside = folder(options.small, *DEFAULTS)
+    if (options.scheme, options.discretisation) != PAPERS or not beside.exists():
         return None
-    return Workspace(folder(beside), workspace.binaries, options.small, options.threads, scheme, discretisation)
+    return Workspace(beside, workspace.binaries, options.small, options.threads, *DEFAULTS)
 
 
 def main():
     options = arguments()
-    workspace = Workspace(folder(options), programs(), options.small, options.threads, options.scheme,
+    workspace = Workspace(folder(options.small, options.scheme, options.discretisation), programs(), options.small, options.threads, options.scheme,
                           options.discretisation)
     for name in options.scenes:
         print(f"== {name}", file=sys.stderr)

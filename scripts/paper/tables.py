@@ -49,22 +49,34 @@ def load_remark(all_stats):
     return (f" **Preliminary: other programs used up to {others:.1f} cores meanwhile, so these times are too long.**")
 
 
+def measured(workspace, name):
+    """What a run of a scene and the archive of its body tell; None if it has not been run."""
+    stats, info = workspace.load(f"{name}.stats"), workspace.load(f"{SCENES[name].body}.info")
+    return (stats, info) if stats and info else None
+
+
+def early_end(stats):
+    return "" if stats["outcome"] == "complete" else f" (failed after {stats['steps']} steps)"
+
+
+def gigabytes(info):
+    return f"{info['bytes'] / 1e9:.3g}"
+
+
 def size_and_step(workspace, name):
     """Cells of a row of Table 1: of a scene that has been run in a workspace."""
-    stats, info = workspace.load(f"{name}.stats"), workspace.load(f"{SCENES[name].body}.info")
-    if not (stats and info):
-        return ["–", "–"]
-    early = "" if stats["outcome"] == "complete" else f" (failed after {stats['steps']} steps)"
-    return [f"{info['bytes'] / 1e9:.3g}", seconds(total(stats)) + early]
+    run = measured(workspace, name)
+    return [gigabytes(run[1]), seconds(total(run[0])) + early_end(run[0])] if run else ["–", "–"]
 
 
 def table1(workspace, defaults=None):
     """`defaults`: the workspace of the same scenes with the programs' defaults, for two more columns."""
     rows, seen = [], []
     for name, scene in SCENES.items():
-        stats, info = workspace.load(f"{name}.stats"), workspace.load(f"{scene.body}.info")
-        if not (stats and info):
+        run = measured(workspace, name)
+        if not run:
             continue
+        stats, info = run
         seen.append(stats)
         paper, bodies = None if workspace.small else PAPER.get(scene.row), stats["bodies"]
         count = f"{bodies[0]['vertices']}" + (f" x {len(bodies)}" if len(bodies) > 1 else "")
@@ -73,10 +85,9 @@ def table1(workspace, defaults=None):
                   for p in PHASES]
         if stats["phases"]["collision"]["mean_seconds"] < 1e-6:
             phases[1] = "–"
-        early = "" if stats["outcome"] == "complete" else f" (failed after {stats['steps']} steps)"
-        rows.append([scene.row + early, scene.figure[3:], count, f"{stats['time_step']:g}",
+        rows.append([scene.row + early_end(stats), scene.figure[3:], count, f"{stats['time_step']:g}",
                      f"{info['scheme']['history_length'] if 'scheme' in info else 0} / {paper.history if paper else '–'}",
-                     f"{info['bytes'] / 1e9:.3g} / {paper.size if paper else '–'}", *phases,
+                     f"{gigabytes(info)} / {paper.size if paper else '–'}", *phases,
                      f"{seconds(ours)} / {seconds(theirs)}", f"{theirs / ours:.0f}" if paper else "–",
                      *(size_and_step(defaults, name) if defaults else [])])
     if not rows:
