@@ -5,7 +5,7 @@
     scripts/study.py rod sphere          # some of them
     scripts/study.py --small             # a smoke test of seconds
     scripts/study.py calculix            # the beam and the rod with CalculiX
-    scripts/study.py tables --update-docs  # runs nothing; tables and plots into docs/accuracy.md
+    scripts/study.py tables --update-docs  # runs nothing; tables and plots into docs
 
 Problems with known solutions are run with the command line programs, one at a time on one thread. Results are
 kept in the output folder, NAME.json per problem, so that a study that was stopped goes on (--force: anew);

@@ -10,7 +10,7 @@ namespace bem {
 
 /// While it lives, this thread takes numbers below the smallest normal one (1e-38 in single
 /// precision) for zero. Kernels of lags that waves have not reached yet, or have long left, are
-/// full of them, and some processors take a hundred times as long for each. Known for x86-64 and
+/// full of them, and some processors take many times as long for each. Known for x86-64 and
 /// 64-bit ARM; elsewhere it does nothing.
 class FlushDenormals {
  public:
