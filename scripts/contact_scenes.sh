@@ -2,7 +2,7 @@
 # Runs the contact scenes of scenes/contact and measures them: builds what is missing, makes meshes
 # and archives, simulates, draws. Leaves in out/contact per scene NAME: NAME/trajectory.h5,
 # NAME.stats.json, NAME.measure.json (true penetration, rest places, speeds), NAME.csv (per frame),
-# NAME.png; prints a Markdown table.
+# NAME.png; prints a Markdown table. With BEM_BIN=FOLDER the programs there are used and nothing is installed or built.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -40,11 +40,13 @@ done
 [[ ${#scenes[@]} -gt 0 ]] || scenes=("${quick[@]}")
 
 out=out/contact
-bin=build/release/bin
+bin=${BEM_BIN:-build/release/bin}
 mkdir -p "$out"
-./scripts/setup.sh
-cmake --preset release
-cmake --build --preset release --parallel "$(nproc)" --target bemprecomp bemsim bemshape bemmeasure
+if [[ -z ${BEM_BIN:-} ]]; then
+  ./scripts/setup.sh
+  cmake --preset release
+  cmake --build --preset release --parallel "$(nproc)" --target bemprecomp bemsim bemshape bemmeasure
+fi
 
 shape() {  # NAME SHAPE OPTIONS...: a mesh
   "$bin/bemshape" "${@:2}" -o "$out/$1.obj"

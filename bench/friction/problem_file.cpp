@@ -1,6 +1,6 @@
 #include "problem_file.hpp"
 
-#include "base/hdf5.hpp"
+#include "files/hdf5.hpp"
 
 #include <map>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "archive/archive_tables.hpp"
-#include "base/hdf5.hpp"
+#include "files/hdf5.hpp"
 
 #include <optional>
 

@@ -1,9 +1,9 @@
 #include "archive/archive_reader.hpp"
 
 #include "archive/archive_layout.hpp"
-#include "archive/file_check.hpp"
 #include "archive/scheme_tables.hpp"
 #include "base/narrow.hpp"
+#include "files/file_check.hpp"
 
 #include <algorithm>
 #include <cmath>

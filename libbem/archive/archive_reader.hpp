@@ -3,7 +3,7 @@
 #include "archive/archive_contents.hpp"
 #include "archive/provenance.hpp"
 #include "archive/user_block.hpp"
-#include "base/hdf5.hpp"
+#include "files/hdf5.hpp"
 #include "model/nodal_tractions.hpp"
 #include "model/precompute.hpp"
 

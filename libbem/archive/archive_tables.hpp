@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/hdf5_types.hpp"
+#include "files/hdf5_types.hpp"
 
 #include <array>
 #include <limits>

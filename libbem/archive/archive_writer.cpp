@@ -6,10 +6,10 @@
 #include "archive/low_rank_storage.hpp"
 #include "archive/scheme_tables.hpp"
 #include "archive/user_block.hpp"
-#include "base/hdf5.hpp"
-#include "base/pending_file.hpp"
 #include "compress/block_partition.hpp"
 #include "compress/dense_family.hpp"
+#include "files/hdf5.hpp"
+#include "files/pending_file.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/hdf5.hpp"
 #include "compress/haar_family.hpp"
+#include "files/hdf5.hpp"
 
 #include <functional>
 

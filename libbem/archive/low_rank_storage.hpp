@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/hdf5.hpp"
 #include "compress/low_rank_family.hpp"
+#include "files/hdf5.hpp"
 
 #include <functional>
 

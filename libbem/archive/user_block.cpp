@@ -1,8 +1,8 @@
 #include "archive/user_block.hpp"
 
-#include "archive/digest.hpp"
 #include "base/error.hpp"
-#include "base/file_io.hpp"
+#include "files/digest.hpp"
+#include "files/file_io.hpp"
 
 #include <cerrno>
 #include <charconv>

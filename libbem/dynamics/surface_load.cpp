@@ -1,8 +1,8 @@
 #include "dynamics/surface_load.hpp"
 
 #include "dynamics/load_columns.hpp"
-#include "dynamics/selection.hpp"
 #include "scene/motion.hpp"
+#include "scene/selection.hpp"
 
 #include <map>
 

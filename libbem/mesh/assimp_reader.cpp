@@ -1,7 +1,7 @@
 #include "mesh/assimp_reader.hpp"
 
 #include "base/error.hpp"
-#include "mesh/isolated_process.hpp"
+#include "files/isolated_process.hpp"
 #include "mesh/mesh_format.hpp"
 #include "mesh/weld.hpp"
 

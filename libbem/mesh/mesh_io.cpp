@@ -2,7 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/interruption.hpp"
-#include "base/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "mesh/assimp_reader.hpp"
 #include "mesh/mesh_format.hpp"
 #include "mesh/obj_reader.hpp"

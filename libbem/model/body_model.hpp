@@ -3,7 +3,7 @@
 #include "assembly/load_assembler.hpp"
 #include "compress/codec.hpp"
 #include "compress/matrix_family.hpp"
-#include "model/geometry.hpp"
+#include "mesh/body_geometry.hpp"
 
 #include <memory>
 #include <string>

@@ -1,8 +1,8 @@
 #include "output/frame_files.hpp"
 
 #include "base/error.hpp"
-#include "base/file_io.hpp"
-#include "base/temporary_file.hpp"
+#include "files/file_io.hpp"
+#include "files/temporary_file.hpp"
 
 #include <cerrno>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "output/growing_file.hpp"
 
-#include "base/file_io.hpp"
+#include "files/file_io.hpp"
 
 #include <algorithm>
 #include <cerrno>

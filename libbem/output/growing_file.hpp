@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/disk_reserve.hpp"
-#include "base/file_descriptor.hpp"
+#include "files/disk_reserve.hpp"
+#include "files/file_descriptor.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 #include "output/hdf5_trajectory.hpp"
 
 #include "base/error.hpp"
-#include "base/file_io.hpp"
+#include "files/file_io.hpp"
 #include "output/trajectory_file.hpp"
 
 #include <algorithm>

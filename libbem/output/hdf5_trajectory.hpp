@@ -1,9 +1,9 @@
 #pragma once
 
-#include "base/disk_reserve.hpp"
-#include "base/hdf5.hpp"
-#include "base/hdf5_rows.hpp"
-#include "base/temporary_file.hpp"
+#include "files/disk_reserve.hpp"
+#include "files/hdf5.hpp"
+#include "files/hdf5_rows.hpp"
+#include "files/temporary_file.hpp"
 #include "output/frame.hpp"
 
 #include <chrono>

@@ -1,8 +1,8 @@
 #include "output/output_directory.hpp"
 
 #include "base/error.hpp"
-#include "base/file_io.hpp"
-#include "base/temporary_file.hpp"
+#include "files/file_io.hpp"
+#include "files/temporary_file.hpp"
 #include "output/frame_files.hpp"
 #include "output/hdf5_trajectory.hpp"
 #include "output/obj_sequence.hpp"

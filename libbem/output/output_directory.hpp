@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/folder_lock.hpp"
+#include "files/folder_lock.hpp"
 
 #include <string>
 #include <vector>

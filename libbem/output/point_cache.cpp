@@ -1,7 +1,7 @@
 #include "output/point_cache.hpp"
 
 #include "base/error.hpp"
-#include "base/file_io.hpp"
+#include "files/file_io.hpp"
 #include "mesh/mesh_io.hpp"
 #include "output/frame_files.hpp"
 

@@ -1,7 +1,7 @@
 #include "output/pvd_collection.hpp"
 
 #include "base/error.hpp"
-#include "base/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "mesh/describe.hpp"
 #include "output/frame_files.hpp"
 

@@ -1,7 +1,7 @@
 #include "output/trajectory_file.hpp"
 
-#include "archive/file_check.hpp"
 #include "base/finite.hpp"
+#include "files/file_check.hpp"
 
 #include <algorithm>
 #include <functional>

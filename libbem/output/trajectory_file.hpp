@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/hdf5.hpp"
 #include "base/types.hpp"
+#include "files/hdf5.hpp"
 
 #include <array>
 #include <string>

@@ -64,12 +64,9 @@ BodySpec read_body(const JsonValue& value) {
   body.name = read_name(reader.required("name"));
   body.archive = read_path(reader.required("archive"));
   read_placement(reader, body);
-  if (const auto frame = reader.optional("frame"))
-    body.frame =
-        frame->choice({"moving", "static"}) == 0 ? FrameMotion::moving : FrameMotion::stationary;
+  if (const auto frame = reader.optional("frame")) body.frame = frame->choice<FrameMotion>();
   if (const auto correction = reader.optional("correction")) {
-    if (correction->choice({"projection", "least_squares"}) == 1)
-      body.correction = Correction::least_squares;
+    body.correction = correction->choice<Correction>();
     if (body.correction == Correction::least_squares && body.is_stationary())
       throw correction->unexpected("\"projection\", because a static frame has no other");
   }

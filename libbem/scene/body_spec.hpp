@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/choices.hpp"
 #include "base/types.hpp"
 #include "scene/location.hpp"
 
@@ -86,10 +87,22 @@ enum class FrameMotion {
   stationary  ///< "static" in the file: it stays where the body started
 };
 
+template <>
+struct Choices<FrameMotion> {
+  static constexpr std::array<Choice<FrameMotion>, 2> all = {
+      {{FrameMotion::moving, "moving"}, {FrameMotion::stationary, "static"}}};
+};
+
 /// What keeps displacements free of rigid motion.
 enum class Correction {
   projection,    ///< linear, exact momentum: docs/method.md, "One time step"
   least_squares  ///< the paper's section 3.2.1, to compare with
+};
+
+template <>
+struct Choices<Correction> {
+  static constexpr std::array<Choice<Correction>, 2> all = {
+      {{Correction::projection, "projection"}, {Correction::least_squares, "least_squares"}}};
 };
 
 struct BodySpec {

@@ -1,7 +1,6 @@
 #include "base/nearest_name.hpp"
 #include "scene/scene_parts.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace bem {
@@ -50,19 +49,6 @@ JointEnd read_joint_end(const JsonValue& value, JointType type, const BodyNames&
   return end;
 }
 
-/// An array of strings out of `names`, at least one and each at most once, as their indices.
-std::vector<std::size_t> read_choices(const JsonValue& value, const std::vector<std::string>& names,
-                                      const std::string& what) {
-  std::vector<std::size_t> chosen;
-  for (const JsonValue& item : value.items(1, what)) {
-    const std::size_t choice = item.choice(names);
-    if (std::find(chosen.begin(), chosen.end(), choice) != chosen.end())
-      throw item.error("the string " + in_quotes(names[choice]) + " is already in this array");
-    chosen.push_back(choice);
-  }
-  return chosen;
-}
-
 }  // namespace
 
 ObstacleSpec read_obstacle(const JsonValue& value) {
@@ -93,7 +79,7 @@ JointSpec read_joint(const JsonValue& value, const BodyNames& bodies) {
   JsonReader reader(value, "a joint");
   JointSpec joint;
   joint.location = value.location();
-  joint.type = static_cast<JointType>(reader.required("type").choice({"point", "weld"}));
+  joint.type = reader.required("type").choice<JointType>();
   joint.a = read_joint_end(reader.required("a"), joint.type, bodies);
   const auto b = joint.type == JointType::point ? reader.optional("b") : reader.required("b");
   if (b) {
@@ -118,10 +104,9 @@ ContactSpec read_contact(const JsonValue& value) {
   if (const auto tolerance = reader.optional("tolerance"))
     contact.tolerance = tolerance->positive();
   if (const auto combine = reader.optional("friction_combine"))
-    contact.friction_combine =
-        static_cast<FrictionCombine>(combine->choice({"max", "min", "average", "multiply"}));
+    contact.friction_combine = combine->choice<FrictionCombine>();
   if (const auto solver = reader.optional("solver"))
-    contact.solver = static_cast<ContactSolver>(solver->choice({"newton", "nsgs", "staggered"}));
+    contact.solver = solver->choice<FrictionMethod>();
   reader.finish();
   return contact;
 }
@@ -130,18 +115,12 @@ OutputSpec read_output(const JsonValue& value) {
   JsonReader reader(value, "the output settings");
   OutputSpec output;
   output.location = value.location();
-  if (const auto formats = reader.optional("formats")) {
-    output.formats.clear();
-    for (std::size_t i : read_choices(*formats, {"obj", "hdf5", "vtp", "pc2"}, "array of formats"))
-      output.formats.push_back(static_cast<OutputFormat>(i));
-  }
+  if (const auto formats = reader.optional("formats"))
+    output.formats = formats->choices<OutputFormat>("array of formats");
   if (const auto every = reader.optional("every"))
     output.every = every->integer_in(1, std::numeric_limits<int>::max());
-  if (const auto fields = reader.optional("fields")) {
-    output.fields.clear();
-    for (std::size_t i : read_choices(*fields, {"positions", "tractions"}, "array of fields"))
-      output.fields.push_back(static_cast<OutputField>(i));
-  }
+  if (const auto fields = reader.optional("fields"))
+    output.fields = fields->choices<OutputField>("array of fields");
   reader.finish();
   return output;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/choices.hpp"
 #include "base/types.hpp"
 #include "scene/json_document.hpp"
 
@@ -35,6 +36,24 @@ class JsonValue {
 
   /// Index in `names` of the string found here; a misspelt one is answered with the nearest.
   std::size_t choice(const std::vector<std::string>& names) const;
+  /// The value of the enumeration T that the string found here names (base/choices.hpp).
+  template <class T>
+  T choice() const {
+    return Choices<T>::all[choice(choice_names<T>())].value;
+  }
+  /// An array of such strings, at least one and each at most once. `what` as in items().
+  template <class T>
+  std::vector<T> choices(const std::string& what) const {
+    std::vector<T> chosen;
+    for (const JsonValue& item : items(1, what)) {
+      const T choice = item.choice<T>();
+      for (T earlier : chosen)
+        if (earlier == choice)
+          throw item.error("the string " + in_quotes(item.text()) + " is already in this array");
+      chosen.push_back(choice);
+    }
+    return chosen;
+  }
 
   /// The error "expected `expected`, found ..." at this place.
   Error unexpected(const std::string& expected) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "friction/friction_options.hpp"
 #include "scene/body_spec.hpp"
 
 // A scene as it is written in its JSON file (docs/scene-format.md), with the defaults filled in.
@@ -43,6 +44,12 @@ enum class JointType {
   weld    ///< the surfaces stay together where they touch at the start
 };
 
+template <>
+struct Choices<JointType> {
+  static constexpr std::array<Choice<JointType>, 2> all = {
+      {{JointType::point, "point"}, {JointType::weld, "weld"}}};
+};
+
 struct JointSpec {
   JointType type = JointType::point;
   JointEnd a;
@@ -54,20 +61,41 @@ struct JointSpec {
 /// How the coefficients of two surfaces make the one between them.
 enum class FrictionCombine { max, min, average, multiply };
 
-/// How the contact forces are found (docs/method.md).
-enum class ContactSolver { newton, nsgs, staggered };
+template <>
+struct Choices<FrictionCombine> {
+  static constexpr std::array<Choice<FrictionCombine>, 4> all = {
+      {{FrictionCombine::max, "max"},
+       {FrictionCombine::min, "min"},
+       {FrictionCombine::average, "average"},
+       {FrictionCombine::multiply, "multiply"}}};
+};
 
 struct ContactSpec {
   bool enabled = false;     ///< true in a scene that has a "contact" without "enabled"
   bool self = false;        ///< contact of a body with itself too
   double tolerance = 1e-6;  ///< > 0 [m]
   FrictionCombine friction_combine = FrictionCombine::max;
-  ContactSolver solver = ContactSolver::newton;
+  FrictionMethod solver = FrictionMethod::newton;
   Location location;
 };
 
 enum class OutputFormat { obj, hdf5, vtp, pc2 };
+
+template <>
+struct Choices<OutputFormat> {
+  static constexpr std::array<Choice<OutputFormat>, 4> all = {{{OutputFormat::obj, "obj"},
+                                                               {OutputFormat::hdf5, "hdf5"},
+                                                               {OutputFormat::vtp, "vtp"},
+                                                               {OutputFormat::pc2, "pc2"}}};
+};
+
 enum class OutputField { positions, tractions };
+
+template <>
+struct Choices<OutputField> {
+  static constexpr std::array<Choice<OutputField>, 2> all = {
+      {{OutputField::positions, "positions"}, {OutputField::tractions, "tractions"}}};
+};
 
 struct OutputSpec {
   std::vector<OutputFormat> formats = {OutputFormat::hdf5};    ///< each at most once, at least one

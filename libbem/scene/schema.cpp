@@ -1,9 +1,37 @@
 #include "scene/schema.hpp"
 
+#include "base/error.hpp"
+#include "scene/scene.hpp"
+
 namespace bem {
+namespace {
+
+/// Puts the names of an enumeration in place of its own: "enum": "T" becomes "enum": ["a", "b"].
+template <class T>
+void list_names(std::string& schema, const std::string& enumeration) {
+  const std::string mark = "\"enum\": \"" + enumeration + "\"";
+  std::string names;
+  for (const std::string& name : choice_names<T>())
+    names += (names.empty() ? "\"" : ", \"") + name + "\"";
+  const std::size_t at = schema.find(mark);
+  require(at != std::string::npos, "the schema has every enumeration of scenes");
+  schema.replace(at, mark.size(), "\"enum\": [" + names + "]");
+}
+
+std::string with_names(std::string schema) {
+  list_names<FrameMotion>(schema, "FrameMotion");
+  list_names<Correction>(schema, "Correction");
+  list_names<FrictionCombine>(schema, "FrictionCombine");
+  list_names<FrictionMethod>(schema, "FrictionMethod");
+  list_names<OutputFormat>(schema, "OutputFormat");
+  list_names<OutputField>(schema, "OutputField");
+  return schema;
+}
+
+}  // namespace
 
 const std::string& scene_schema() {
-  static const std::string schema = R"json({
+  static const std::string schema = with_names(R"json({
   "$schema": "https://json-schema.org/draft/2020-12/schema",
   "title": "Scene of bemsim, version 1",
   "description": "SI units. Angles are in degrees where the key says so. Paths are relative to the scene file.",
@@ -125,8 +153,8 @@ const std::string& scene_schema() {
         "rotation": {"description": "World = position + R * mesh coordinates; default none.", "$ref": "#/$defs/rotation"},
         "velocity": {"description": "Of the centre of mass [m/s]; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
         "angular_velocity": {"description": "About the centre of mass [rad/s], world axes; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
-        "frame": {"description": "Frame of the displacements; default moving.", "enum": ["moving", "static"]},
-        "correction": {"description": "What keeps displacements free of rigid motion: the linear projection, or the paper's least squares, to compare with; default projection.", "enum": ["projection", "least_squares"]},
+        "frame": {"description": "Frame of the displacements; default moving.", "enum": "FrameMotion"},
+        "correction": {"description": "What keeps displacements free of rigid motion: the linear projection, or the paper's least squares, to compare with; default projection.", "enum": "Correction"},
         "gravity": {"description": "Whether gravity acts on the body; default true.", "type": "boolean"},
         "centrifugal": {"description": "Whether its rotation deforms the body: gyroscopic and centrifugal forces of a moving frame; default true.", "type": "boolean"},
         "friction": {"$ref": "#/$defs/friction"},
@@ -208,21 +236,21 @@ const std::string& scene_schema() {
         "enabled": {"description": "Whether contact is computed; default true.", "type": "boolean"},
         "self": {"description": "Also contact of a body with itself; default false.", "type": "boolean"},
         "tolerance": {"description": "Error allowed in the gaps [m]; default 1e-6.", "type": "number", "exclusiveMinimum": 0},
-        "friction_combine": {"description": "Coefficient between two surfaces from theirs; default max.", "enum": ["max", "min", "average", "multiply"]},
-        "solver": {"description": "How the contact forces are found; default newton.", "enum": ["newton", "nsgs", "staggered"]}
+        "friction_combine": {"description": "Coefficient between two surfaces from theirs; default max.", "enum": "FrictionCombine"},
+        "solver": {"description": "How the contact forces are found; default newton.", "enum": "FrictionMethod"}
       }
     },
     "output": {
       "type": "object", "additionalProperties": false,
       "properties": {
-        "formats": {"description": "Default [\"hdf5\"].", "type": "array", "minItems": 1, "uniqueItems": true, "items": {"enum": ["obj", "hdf5", "vtp", "pc2"]}},
+        "formats": {"description": "Default [\"hdf5\"].", "type": "array", "minItems": 1, "uniqueItems": true, "items": {"enum": "OutputFormat"}},
         "every": {"description": "Steps from one written frame to the next; default 1.", "type": "integer", "minimum": 1, "maximum": 2147483647},
-        "fields": {"description": "Positions are always written; default [\"positions\"].", "type": "array", "minItems": 1, "uniqueItems": true, "items": {"enum": ["positions", "tractions"]}}
+        "fields": {"description": "Positions are always written; default [\"positions\"].", "type": "array", "minItems": 1, "uniqueItems": true, "items": {"enum": "OutputField"}}
       }
     }
   }
 }
-)json";
+)json");
   return schema;
 }
 

@@ -1,7 +1,7 @@
 /// Checkpoints: the input is the state of the small scene; mark and digest are made by the target.
 
 #include "base/parallel.hpp"
-#include "base/state_file.hpp"
+#include "files/state_file.hpp"
 #include "fuzz_scene.hpp"
 #include "support/temporary_folder.hpp"
 #include "target.hpp"

@@ -1,7 +1,7 @@
 /// Makes the seeds of all targets: fuzz_corpus FOLDER SCENES_FOLDER.
 
 #include "archive/archive_writer.hpp"
-#include "base/state_file.hpp"
+#include "files/state_file.hpp"
 #include "fuzz_scene.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/shapes.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contact/friction_problem.hpp"
+#include "friction/friction_problem.hpp"
 #include "support/rigid_scene.hpp"
 #include "support/uniform.hpp"
 

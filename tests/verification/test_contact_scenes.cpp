@@ -1,5 +1,5 @@
 // The scenes of scenes/contact, with coarser bodies where the shipped ones are large.
-#include "contact/self_penetration.hpp"
+#include "collision/self_penetration.hpp"
 #include "mesh/extent.hpp"
 #include "scene/motion.hpp"
 #include "scene/scene_json.hpp"

@@ -15,7 +15,7 @@ constexpr double kGravity = 9.81;
 /// A flat block of 0.4 x 0.4 x 0.1 m on a plane; `slope`: its tangent, downhill is +x.
 struct Block {
   Block(bool rigid, double dt, double friction, double slope, const Vec3& velocity,
-        ContactSolver solver = ContactSolver::newton)
+        FrictionMethod solver = FrictionMethod::newton)
       : simulation(make(rigid, dt, friction, slope, velocity, solver)) {}
 
   Vec3 run(double duration) {
@@ -27,7 +27,7 @@ struct Block {
 
  private:
   std::unique_ptr<Simulation> make(bool rigid, double dt, double friction, double slope,
-                                   const Vec3& velocity, ContactSolver solver) {
+                                   const Vec3& velocity, FrictionMethod solver) {
     MemorySource source;
     const TriangleMesh mesh = box(Vec3(0.4, 0.4, 0.1), {4, 4, 1});
     source.add("block",
@@ -88,8 +88,8 @@ TEST_CASE("a block on a slope sticks below the friction angle and slides above i
 
 TEST_CASE("all contact solvers find the same sliding") {
   const double way = 1 / (2 * 0.4 * kGravity);
-  for (ContactSolver solver :
-       {ContactSolver::newton, ContactSolver::nsgs, ContactSolver::staggered}) {
+  for (FrictionMethod solver :
+       {FrictionMethod::newton, FrictionMethod::nsgs, FrictionMethod::staggered}) {
     Block block(false, 2e-3, 0.4, 0, Vec3(1, 0, 0), solver);
     CHECK(block.run(0.3)[0] == Approx(way).epsilon(2e-3));
     CHECK(block.simulation->statistics().converged());

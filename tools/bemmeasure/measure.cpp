@@ -1,8 +1,8 @@
 #include "measure.hpp"
 
-#include "base/pending_file.hpp"
-#include "contact/self_penetration.hpp"
-#include "contact/surface_overlap.hpp"
+#include "collision/self_penetration.hpp"
+#include "collision/surface_overlap.hpp"
+#include "files/pending_file.hpp"
 #include "mesh/extent.hpp"
 #include "mesh/mass_properties.hpp"
 #include "mesh/mesh_io.hpp"

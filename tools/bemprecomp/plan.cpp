@@ -6,12 +6,12 @@
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
 #include "compress/dense_store.hpp"
-#include "dynamics/selection.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/solids.hpp"
 #include "model/model_assembly.hpp"
 #include "scene/material_json.hpp"
+#include "scene/selection.hpp"
 #include "scene/selection_json.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "archive/archive_writer.hpp"
 #include "base/error.hpp"
-#include "base/pending_file.hpp"
+#include "files/pending_file.hpp"
 #include "mesh/describe.hpp"
 #include "model/growth.hpp"
 #include "report.hpp"

@@ -1,9 +1,9 @@
 #include "checkpoint.hpp"
 
-#include "archive/digest.hpp"
 #include "base/error.hpp"
-#include "base/file_io.hpp"
 #include "common/cli.hpp"
+#include "files/digest.hpp"
+#include "files/file_io.hpp"
 #include "mesh/describe.hpp"
 #include "output/output_directory.hpp"
 
@@ -26,7 +26,7 @@ std::string scene_text(const Plan& plan, const Options& options) {
   scene.erase("duration");
   const OutputSpec& output = plan.scene.output;
   nlohmann::json formats = nlohmann::json::array();
-  for (OutputFormat format : output.formats) formats.push_back(format_name(format));
+  for (OutputFormat format : output.formats) formats.push_back(choice_name(format));
   const std::string frames =
       options.fps ? "--fps " + to_text(*options.fps) : "--every " + std::to_string(output.every);
   scene["output"] = {{"formats", formats}, {"frames", frames}, {"fields", output.fields}};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/state_file.hpp"
+#include "files/state_file.hpp"
 #include "options.hpp"
 #include "plan.hpp"
 

@@ -15,8 +15,6 @@
 namespace bem {
 namespace {
 
-const std::vector<std::string> kFormatNames = {"obj", "hdf5", "vtp", "pc2"};  // as OutputFormat
-
 [[noreturn]] void refuse(const std::string& text) {
   throw Error(ErrorCode::usage, text);
 }
@@ -72,13 +70,13 @@ void add_options(CLI::App& app, Typed& t) {
 std::vector<OutputFormat> parse_formats(const std::vector<std::string>& names) {
   std::vector<OutputFormat> formats;
   for (const std::string& name : names) {
-    const auto found = std::find(kFormatNames.begin(), kFormatNames.end(), name);
-    if (found == kFormatNames.end())
-      refuse("--format does not know " + in_quotes(name) + "; the formats are obj, hdf5, vtp, pc2");
-    const auto format = static_cast<OutputFormat>(found - kFormatNames.begin());
-    if (std::find(formats.begin(), formats.end(), format) != formats.end())
+    const std::optional<OutputFormat> format = find_choice<OutputFormat>(name);
+    if (!format)
+      refuse("--format does not know " + in_quotes(name) + "; it takes " +
+             choice_list<OutputFormat>());
+    if (std::find(formats.begin(), formats.end(), *format) != formats.end())
       refuse("--format names " + name + " twice");
-    formats.push_back(format);
+    formats.push_back(*format);
   }
   return formats;
 }
@@ -136,10 +134,6 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   add_options(app, typed);
   if (!parse_command_line(app, argc, argv, "one scene is enough")) return std::nullopt;
   return checked(typed);
-}
-
-const std::string& format_name(OutputFormat format) {
-  return kFormatNames[static_cast<std::size_t>(format)];
 }
 
 }  // namespace bem

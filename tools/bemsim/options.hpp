@@ -30,7 +30,4 @@ struct Options {
 /// ErrorCode::usage.
 std::optional<Options> parse_options(int argc, const char* const* argv);
 
-/// "hdf5", as on the command line and in scenes.
-const std::string& format_name(OutputFormat format);
-
 }  // namespace bem

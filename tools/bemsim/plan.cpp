@@ -3,10 +3,10 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
-#include "contact/joints.hpp"
-#include "dynamics/selection.hpp"
+#include "constraints/joints.hpp"
 #include "mesh/describe.hpp"
 #include "scene/motion.hpp"
+#include "scene/selection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -300,7 +300,7 @@ void print_plan(std::ostream& out, const Plan& plan) {
   out << "threads: " << thread_count() << "\n";
   out << "output:  " << count_text(static_cast<std::size_t>(plan.frames()), "frame") << " as";
   for (OutputFormat format : scene.output.formats)
-    out << (format == scene.output.formats.front() ? " " : ", ") << format_name(format);
+    out << (format == scene.output.formats.front() ? " " : ", ") << choice_name(format);
   const auto& fields = scene.output.fields;
   if (std::count(fields.begin(), fields.end(), OutputField::tractions) > 0)
     out << ", with tractions";

@@ -2,8 +2,8 @@
 
 #include "base/error.hpp"
 #include "base/interruption.hpp"
-#include "base/pending_file.hpp"
 #include "checkpoint.hpp"
+#include "files/pending_file.hpp"
 #include "mesh/describe.hpp"
 #include "output/output_directory.hpp"
 #include "stats.hpp"

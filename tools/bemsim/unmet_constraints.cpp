@@ -60,7 +60,7 @@ std::optional<std::string> UnmetConstraints::warning(long steps, const ContactSp
                          : impossible);
   add(contacts_, "contact displacements were wrong",
       std::string("use a shorter time step, ") +
-          (contact.solver == ContactSolver::newton ? "" : "the contact solver \"newton\", ") +
+          (contact.solver == FrictionMethod::newton ? "" : "the contact solver \"newton\", ") +
           "or raise " + tolerance);
   add(penetrations_, "bodies still penetrated each other or obstacles",
       infeasible_ > 0 ? steps_text(infeasible_) +
@@ -69,7 +69,8 @@ std::optional<std::string> UnmetConstraints::warning(long steps, const ContactSp
                       : "use a shorter time step, or raise " + tolerance);
   if (exhausted_ > 0)
     text += "; " + steps_text(exhausted_) + " the work allowed for a step (" +
-            std::to_string(kMostStepSolves) + " linear solves) ended the search for contact forces";
+            std::to_string(ContactTolerances::Iteration::most_solves) +
+            " linear solves) ended the search for contact forces";
   return text;
 }
 

@@ -36,7 +36,7 @@ auto with_writer(OutputFormat format, const Use& use) {
     case OutputFormat::pc2:
       return use(static_cast<PointCache*>(nullptr));
   }
-  throw Error(ErrorCode::internal, "no writer for the format " + format_name(format));
+  throw Error(ErrorCode::internal, "no writer for the format " + choice_name(format));
 }
 
 FileRecords read_records(OutputFormat format, const std::string& directory, const Bodies& bodies,

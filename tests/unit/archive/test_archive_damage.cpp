@@ -1,4 +1,4 @@
-#include "base/hdf5.hpp"
+#include "files/hdf5.hpp"
 #include "support/archives.hpp"
 
 #include <filesystem>

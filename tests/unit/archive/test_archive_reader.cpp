@@ -1,6 +1,6 @@
 #include "archive/user_block.hpp"
-#include "base/hdf5.hpp"
 #include "compress/haar_family.hpp"
+#include "files/hdf5.hpp"
 #include "support/archives.hpp"
 
 #include <numeric>

@@ -1,5 +1,5 @@
-#include "base/state_file.hpp"
 #include "dynamics/coarseness_watch.hpp"
+#include "files/state_file.hpp"
 #include "mesh/shapes.hpp"
 #include "support/temporary_folder.hpp"
 

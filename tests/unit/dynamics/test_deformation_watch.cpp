@@ -1,6 +1,6 @@
-#include "base/state_file.hpp"
 #include "dynamics/deformation_watch.hpp"
 #include "dynamics/rotation.hpp"
+#include "files/state_file.hpp"
 #include "mesh/grid_shapes.hpp"
 #include "mesh/mass_properties.hpp"
 #include "mesh/shapes.hpp"

@@ -1,0 +1,95 @@
+#include "collision/signed_distance.hpp"
+
+#include "collision/moving_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bem {
+namespace {
+
+double squared_distance(const Vec3& p, const BoundingBox& box) {
+  return (box.min - p).cwiseMax(p - box.max).cwiseMax(0.0).squaredNorm();
+}
+
+/// The triangle nearest to a point.
+class NearestTriangle {
+ public:
+  NearestTriangle(const BoundingTree& tree, const MovingSurface& surface, const Vec3& p)
+      : tree_(tree), surface_(surface), p_(p) {
+    visit(0);
+  }
+
+  double signed_distance() const {
+    Vec3 normal = triangle_normal(surface_, triangle_, 0);
+    if (closest_.feature == NearestPoint::Feature::edge)
+      normal =
+          edge_normal(surface_, surface_.topology->triangle_edges[triangle_][closest_.index], 0);
+    if (closest_.feature == NearestPoint::Feature::corner)
+      normal = vertex_normal(surface_, surface_.topology->triangles[triangle_][closest_.index], 0);
+    const Vec3 between = p_ - closest_.point;
+    return normal.dot(between) < 0 ? -between.norm() : between.norm();
+  }
+
+ private:
+  void visit(int index) {
+    const BoundingTree::Node& node = tree_.nodes()[index];
+    if (squared_distance(p_, node.box) >= nearest_) return;
+    if (!node.leaf()) {
+      const int first = index + 1;
+      const bool ahead = squared_distance(p_, tree_.nodes()[first].box) <=
+                         squared_distance(p_, tree_.nodes()[node.right].box);
+      visit(ahead ? first : node.right);
+      visit(ahead ? node.right : first);
+      return;
+    }
+    for (int i = node.begin; i < node.end; ++i) {
+      const auto [a, b, c] = surface_.triangle(tree_.order()[i], 0);
+      const NearestPoint closest = closest_on_triangle(p_, a, b, c);
+      const double distance = (p_ - closest.point).squaredNorm();
+      if (distance >= nearest_ || unit_normal(a, b, c).isZero(0)) continue;
+      nearest_ = distance;
+      closest_ = closest;
+      triangle_ = tree_.order()[i];
+    }
+  }
+
+  const BoundingTree& tree_;
+  const MovingSurface& surface_;
+  const Vec3& p_;
+  double nearest_ = std::numeric_limits<double>::infinity();
+  NearestPoint closest_;
+  int triangle_ = 0;
+};
+
+}  // namespace
+
+SignedDistance::SignedDistance(const std::vector<Triangle>& triangles,
+                               const std::vector<Vec3>& vertices)
+    : topology_(make_topology(triangles, static_cast<int>(vertices.size()))),
+      vertices_(&vertices),
+      tree_(triangles, vertices),
+      closed_(std::all_of(topology_.edges.begin(), topology_.edges.end(),
+                          [](const auto& edge) { return edge.triangles[1] >= 0; })) {}
+
+double SignedDistance::operator()(const Vec3& p) const {
+  if (topology_.triangles.empty()) return std::numeric_limits<double>::infinity();
+  const MovingSurface surface{0, &topology_, vertices_, vertices_};
+  return NearestTriangle(tree_, surface, p).signed_distance();
+}
+
+/// By the solid angles of the triangles [Van Oosterom and Strackee 1983].
+bool SignedDistance::surely_contains(const Vec3& p) const {
+  if (!closed_) return true;
+  double sum = 0;
+  for (const Triangle& t : topology_.triangles) {
+    const Vec3 a = (*vertices_)[t[0]] - p, b = (*vertices_)[t[1]] - p, c = (*vertices_)[t[2]] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum +=
+        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (2 * kPi) > 0.5;
+}
+
+}  // namespace bem

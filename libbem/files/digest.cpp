@@ -1,0 +1,64 @@
+#include "files/digest.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "files/file_io.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <xxhash.h>
+
+namespace bem {
+namespace {
+
+constexpr std::uint64_t kPiece = 256 << 10;  // stays in the second-level cache
+
+struct FreeState {
+  void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+};
+using State = std::unique_ptr<XXH3_state_t, FreeState>;
+
+/// Buffers of one worker thread.
+struct Hasher {
+  State state{XXH3_createState()};
+  std::vector<char> buffer = std::vector<char>(kPiece);
+};
+
+void read_exactly(int file, char* out, std::uint64_t size, std::uint64_t offset,
+                  const std::string& path) {
+  std::size_t got = 0;
+  check_io(read_fully(file, out, size, offset, got), path, "cannot be read");
+  if (got < size) throw Error(ErrorCode::archive, path + ": the archive cannot be read to its end");
+}
+
+}  // namespace
+
+std::string tree_digest(int file, std::uint64_t first, std::uint64_t length,
+                        const std::string& path) {
+  const auto blocks = static_cast<std::size_t>((length + kDigestBlock - 1) / kDigestBlock);
+  std::vector<XXH128_canonical_t> digests(blocks);
+  parallel_for(blocks, [&](std::size_t b) {
+    thread_local Hasher hasher;
+    XXH3_128bits_reset(hasher.state.get());
+    const std::uint64_t begin = b * kDigestBlock, end = std::min(length, begin + kDigestBlock);
+    for (std::uint64_t at = begin; at < end; at += kPiece) {
+      const std::uint64_t size = std::min(kPiece, end - at);
+      read_exactly(file, hasher.buffer.data(), size, first + at, path);
+      XXH3_128bits_update(hasher.state.get(), hasher.buffer.data(), size);
+    }
+    XXH128_canonicalFromHash(&digests[b], XXH3_128bits_digest(hasher.state.get()));
+  });
+  XXH128_canonical_t root;
+  XXH128_canonicalFromHash(
+      &root, XXH3_128bits(digests.data(), digests.size() * sizeof(XXH128_canonical_t)));
+  std::string hex;
+  for (unsigned char byte : root.digest) {
+    hex += "0123456789abcdef"[byte >> 4];
+    hex += "0123456789abcdef"[byte & 15];
+  }
+  return hex;
+}
+
+}  // namespace bem

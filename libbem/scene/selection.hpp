@@ -1,0 +1,18 @@
+#pragma once
+
+#include "mesh/body_geometry.hpp"
+#include "scene/scene.hpp"
+
+namespace bem {
+
+/// Nodes that a selection picks, ascending. Triangles stand for their corners; a box picks the
+/// vertices in it, with a normal those that belong to a triangle with all corners in the box and
+/// facing that way. Throws ErrorCode::invalid_input, naming the place in the scene, if an index is
+/// out of range or nothing is picked.
+std::vector<int> select_nodes(const BodyGeometry& geometry, const Selection& selection);
+
+/// Triangles (of geometry.nodes) that a selection picks, ascending: those with all corners chosen,
+/// and facing the normal if there is one. Errors as above.
+std::vector<int> select_triangles(const BodyGeometry& geometry, const Selection& selection);
+
+}  // namespace bem

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "constraints/joints.hpp"
+#include "mesh/obstacle_surface.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bem {
+
+/// Loads what a scene needs of its files.
+class ModelSource {
+ public:
+  virtual ~ModelSource() = default;
+  /// The model with the matrices of free motion, for an archive path as resolved in the scene.
+  virtual std::shared_ptr<const BodyModel> model(const FilePath& archive) = 0;
+  /// Traction columns of some nodes, ascending.
+  virtual TractionData tractions(const FilePath& archive, const std::vector<int>& nodes) = 0;
+  /// The surface of an obstacle in its mesh's coordinates times its scale.
+  virtual const ObstacleSurface& obstacle(const MeshObstacle& obstacle) = 0;
+};
+
+/// The bodies of a scene at its start, and what connects them.
+struct LoadedScene {
+  JointPlan plan;  ///< refers to the scene
+  std::vector<Body> bodies;
+  std::vector<std::vector<int>> sharing;  ///< deformable bodies by archive
+  std::size_t matrix_bytes = 0;           ///< of the matrices in memory
+  std::size_t archives = 0;               ///< that they come from
+};
+
+/// Loads every archive once. The scene must outlive what is returned. Throws ErrorCode::archive,
+/// naming the place in the scene, if an archive does not fit it.
+LoadedScene load_scene(const Scene& scene, ModelSource& source);
+
+/// Throws ErrorCode::archive, naming the place in the scene, if the archive of a body was made for
+/// another time step than the scene's, or for another correction than the body's.
+void check_archive(const Scene& scene, const BodySpec& body, ModelKind kind,
+                   const Discretisation& discretisation);
+
+/// The time discretisations of a scene's bodies in their order, from those of the deformable ones;
+/// rigid bodies (null) take that of the first. Throws ErrorCode::archive, naming the place in the
+/// scene, if a joint connects bodies with different ones.
+std::vector<Scheme> body_schemes(const Scene& scene,
+                                 const std::vector<const Discretisation*>& deformable);
+
+}  // namespace bem
