@@ -1,6 +1,7 @@
 #include "assembly/pair_quadrature.hpp"
 
 #include "assembly/panel_quadrature.hpp"
+#include "mesh/local_thickness.hpp"
 #include "quadrature/triangle_rules.hpp"
 
 #include <algorithm>
@@ -15,6 +16,12 @@ constexpr int kStaticAway = 3, kDynamicAway = 4;  // exact for static kernels, f
 constexpr int kStaticAlong = 2, kDynamicAlong = 3;
 constexpr double kPerWave = 0.4, kMostForWaves = 4;  // more of them per |s| h/c2
 constexpr double kDynamicPart = 0.05;                // of the square root of the tolerance
+
+// Where a body is thin, its inertia against being squeezed is the small difference between pairs of
+// triangles on one side and pairs on opposite sides: errors of either must be smaller, or motions
+// grow.
+constexpr double kThin = 0.3, kVeryThin = 0.1;  // thickness over the longest edge
+constexpr double kWavesWhereThin = 2;           // up to so many times the wave number
 
 double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
@@ -57,40 +64,52 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
     : mesh_(mesh),
       static_choice_(1000 * tolerance),
       dynamic_choice_(3000 * tolerance),
+      tolerance_(tolerance),
       wave_number_(wave_number) {
+  const std::vector<double> thickness = local_thickness(mesh);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& triangle = mesh.triangles[t];
     const auto places = corners(static_cast<int>(t));
     const TriangleCell cell(places);
-    Panel p{triangle_normal(mesh, triangle), (places[0] + places[1] + places[2]) / 3,
-            triangle_area(mesh, triangle), cell.longest_edge(), 0};
+    Panel p{triangle_normal(mesh, triangle),
+            (places[0] + places[1] + places[2]) / 3,
+            triangle_area(mesh, triangle),
+            cell.longest_edge(),
+            0,
+            thickness[t]};
     for (const Vec3& x : places) p.radius = std::max(p.radius, (x - p.centre).norm());
+    longest_edge_ = std::max(longest_edge_, p.longest_edge);
     panels_.push_back(p);
   }
   for (int x = 0; x < kTriangleRuleCount; ++x)
     for (int y = 0; y < kTriangleRuleCount; ++y)
       products_[x][y] = product_rule(triangle_rules()[x], triangle_rules()[y]);
-  // leading terms of Z times shape functions are polynomials there, smaller errors and shorter
-  // waves ask for further ones
-  const double more = std::max(0.0, std::ceil(-0.5 * std::log10(tolerance) - 3)),
-               waves = std::min(kMostForWaves, kPerWave * longest_wave());
-  const int away = kDynamicAway + static_cast<int>(more + std::floor(waves)),
-            along = kDynamicAlong + static_cast<int>(more + std::ceil(waves));
-  static_touching_ = {kStaticAway, kStaticAlong, tolerance};
-  dynamic_touching_ = {away, along, kDynamicPart * std::sqrt(tolerance)};
 }
 
 bool PairQuadrature::midpoints_suffice(double distance, double longest_edge,
                                        KernelPart part) const {
-  const int rule = rule_at(distance, longest_edge, part);
+  const int rule = rule_at(distance, longest_edge, part, wave_number_);
   return rule >= 0 && triangle_rules()[rule].degree <= 2;
 }
 
-/// |s| h/c2 of the longest edge.
-double PairQuadrature::longest_wave() const {
-  double longest = 0;
-  for (const Panel& p : panels_) longest = std::max(longest, p.longest_edge);
-  return longest * wave_number_;
+/// Up to which waves are resolved between two triangles that are not far from each other [1/m].
+double PairQuadrature::wave_number(int tx, int ty) const {
+  return (thickness(tx, ty) < kThin ? kWavesWhereThin : 1) * wave_number_;
+}
+
+/// For triangles that touch. Leading terms of Z times shape functions are polynomials away from
+/// what they share, smaller errors and shorter waves ask for further ones.
+TouchingAccuracy PairQuadrature::dynamic_accuracy(int tx, int ty) const {
+  const double thin = thickness(tx, ty);
+  const double more = std::max(0.0, std::ceil(-0.5 * std::log10(tolerance_) - 3)),
+               waves = std::min(kMostForWaves, kPerWave * longest_edge_ * wave_number(tx, ty));
+  TouchingAccuracy out{kDynamicAway + static_cast<int>(more + std::floor(waves)),
+                       kDynamicAlong + static_cast<int>(more + std::ceil(waves)),
+                       kDynamicPart * std::sqrt(tolerance_)};
+  if (thin >= kThin) return out;
+  out.away += thin < kVeryThin ? 2 : 1;
+  out.tolerance *= thin / kThin;
+  return out;
 }
 
 Adjacency PairQuadrature::adjacency(int tx, int ty) const {
@@ -123,8 +142,9 @@ PairQuadrature::Part PairQuadrature::touching_part(int tx, int ty, KernelPart ke
     pair.x[k] = part.x.corners()[part.corner_x[k]];
     pair.y[k] = part.y.corners()[part.corner_y[k]];
   }
-  touching_rule(pair, kernel == KernelPart::static_part ? static_touching_ : dynamic_touching_,
-                points);
+  const TouchingAccuracy static_accuracy{kStaticAway, kStaticAlong, tolerance_};
+  touching_rule(
+      pair, kernel == KernelPart::static_part ? static_accuracy : dynamic_accuracy(tx, ty), points);
   part.touching = &points;
   return part;
 }
@@ -144,8 +164,9 @@ std::optional<std::array<int, 2>> PairQuadrature::unsplit_rules(int tx, int ty,
   if (distance < kFar * std::max(x.longest_edge, y.longest_edge)) {
     distance = triangle_distance(corners(tx).data(), corners(ty).data());
   }
-  const int rule_x = rule_at(distance, x.longest_edge, part),
-            rule_y = rule_at(distance, y.longest_edge, part);
+  const double waves = wave_number(tx, ty);
+  const int rule_x = rule_at(distance, x.longest_edge, part, waves),
+            rule_y = rule_at(distance, y.longest_edge, part, waves);
   if (rule_x < 0 || rule_y < 0) return std::nullopt;
   return std::array<int, 2>{rule_x, rule_y};
 }
@@ -172,13 +193,14 @@ void PairQuadrature::for_each_part(int tx, int ty, KernelPart kernel,
     give({whole.x, whole.y, (*rules)[0], (*rules)[1]});
     return;
   }
+  const double waves = wave_number(tx, ty);
   std::vector<Pair> stack = {whole};
   while (!stack.empty()) {
     const Pair pair = stack.back();
     stack.pop_back();
     const double distance = triangle_distance(pair.x.corners().data(), pair.y.corners().data());
     const auto rule_of = [&](const TriangleCell& cell) {
-      const int rule = rule_at(distance, cell.longest_edge(), kernel);
+      const int rule = rule_at(distance, cell.longest_edge(), kernel, waves);
       return rule < 0 && pair.depth >= kDeepest ? kTriangleRuleCount - 1 : rule;
     };
     const int rule_x = rule_of(pair.x), rule_y = rule_of(pair.y);

@@ -92,7 +92,8 @@ class PairQuadrature {
   struct Panel {
     Vec3 normal, centre;
     double area, longest_edge;
-    double radius;  ///< of the corners about the centre
+    double radius;     ///< of the corners about the centre
+    double thickness;  ///< mesh/local_thickness.hpp
   };
   /// Two parts of triangles that are dealt with together.
   struct Pair {
@@ -100,21 +101,25 @@ class PairQuadrature {
     int depth = 0;
   };
   Adjacency adjacency(int tx, int ty) const;
+  TouchingAccuracy dynamic_accuracy(int tx, int ty) const;
   Part touching_part(int tx, int ty, KernelPart kernel, std::vector<PairPoint>& points) const;
   std::optional<std::array<int, 2>> unsplit_rules(int tx, int ty, KernelPart kernel) const;
   std::array<Vec3, 3> corners(int triangle) const;
-  int rule_at(double distance, double longest_edge, KernelPart kernel) const {
+  int rule_at(double distance, double longest_edge, KernelPart kernel, double wave_number) const {
     return kernel == KernelPart::static_part
                ? static_choice_.choose(distance / longest_edge, 0)
-               : dynamic_choice_.choose(distance / longest_edge, wave_number_ * longest_edge);
+               : dynamic_choice_.choose(distance / longest_edge, wave_number * longest_edge);
   }
-  double longest_wave() const;
+  double thickness(int tx, int ty) const {
+    return std::min(panels_[tx].thickness, panels_[ty].thickness);
+  }
+  double wave_number(int tx, int ty) const;
 
   const TriangleMesh& mesh_;
   RuleChoice static_choice_, dynamic_choice_;
-  double wave_number_;
+  double tolerance_, wave_number_;
   std::vector<Panel> panels_;
-  TouchingAccuracy static_touching_, dynamic_touching_;
+  double longest_edge_ = 0;
   /// Products of triangle rules, [rule of x][rule of y].
   std::vector<PairPoint> products_[kTriangleRuleCount][kTriangleRuleCount];
 };

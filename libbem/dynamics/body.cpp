@@ -111,8 +111,8 @@ double Body::window_rate() const {
 /// The leak of the frame offset: the window, which shifts s. Free bodies have a slow leak besides,
 /// so that the small imbalance of the discretisation cannot accumulate. In the inertial form only
 /// the codec's and the rounding of its products remain (by default 7e-6 of the velocity that a push
-/// gives a rod): held bodies may have the leak, too, if it is nearly undamped, as a shift of phase
-/// makes their slow vibrations grow.
+/// gives a rod): there held bodies have the leak, too, but next to undamped, because a shift of
+/// phase makes their slow vibrations grow.
 FrameOffset::Leak Body::leak(bool held) const {
   const BodyModel& m = *shared_.model;
   const double traversal = m.geometry.extent / m.discretisation.material.shear_speed();
@@ -120,7 +120,7 @@ FrameOffset::Leak Body::leak(bool held) const {
   if (window_rate() >= slow || (held && !m.stiffness))
     return FrameOffset::Leak::critical(window_rate());
   FrameOffset::Leak leak = FrameOffset::Leak::critical(slow);
-  constexpr double kDamped = 0.1;
+  constexpr double kDamped = 0.001;
   if (m.stiffness) leak.damping *= kDamped;
   return leak;
 }
@@ -210,11 +210,15 @@ Vec3 Body::contact_displacement(std::size_t i) const {
   return node_displacements_.contact.segment<3>(static_cast<Eigen::Index>(3 * i));
 }
 
-/// Where the force on a joint node acts, from the centre of mass in body axes.
+/// Where the force on a joint node acts, from the centre of mass in body axes. In a moving frame
+/// the displacement is part of it: without it the work of the force on the frame would not be what
+/// the constraint takes, and large vibrations of held bodies would grow. A stationary frame turns
+/// to first order, about the undeformed body.
 Vec3 Body::joint_lever(std::size_t i, int stage) const {
-  if (joint_nodes_[i].anchored) return anchor_levers_[i];
-  return shared_.model->geometry.nodes.vertices[joint_nodes_[i].node] +
-         joint_displacement(i, stage);
+  const JointNode& n = joint_nodes_[i];
+  if (!n.anchored) return model().geometry.nodes.vertices[n.node] + joint_displacement(i, stage);
+  if (spec_.is_stationary()) return anchor_levers_[i];
+  return anchor_levers_[i] + joint_displacement(i, stage);
 }
 
 FrameLoads Body::frame_loads() const {

@@ -7,11 +7,16 @@ namespace bem {
 namespace {
 
 /// Of motions that have no meaning any more.
-constexpr const char* kCures =
-    "if its loads or handles do that, make them smaller or its material stiffer, or cut it into "
-    "parts that welds join; if not, its motion is unstable: make its archive with "
-    "--discretisation galerkin, with --window auto (or a smaller window), a larger --dt, a smaller "
-    "--codec-tol or a finer mesh";
+std::string cures(const BodyModel& model) {
+  const bool galerkin = model.discretisation.method == SpatialMethod::galerkin;
+  return std::string(
+             "if its loads or handles do that, make them smaller or its material stiffer, "
+             "or cut it into parts that welds join; if not, its motion is unstable: make "
+             "its archive with ") +
+         (galerkin ? "a smaller --codec-tol or --quadrature-tol"
+                   : "--discretisation galerkin, with --window auto (or a smaller window)") +
+         ", a larger --dt or a finer mesh";
+}
 
 }  // namespace
 
@@ -99,7 +104,7 @@ void Body::check_end() const {
   if (most > kMostDeformation)
     throw Error(ErrorCode::numerical, "body \"" + spec_.name + "\" is deformed to " +
                                           std::to_string(static_cast<long>(most)) +
-                                          " times its size" + when + ": " + kCures);
+                                          " times its size" + when + ": " + cures(model()));
 }
 
 void Body::check_inversion() const {
@@ -112,7 +117,7 @@ void Body::check_inversion() const {
                   (volume > 0 ? std::to_string(static_cast<long>(100 * share)) +
                                     " % of its surface have gone through zero area"
                               : "its volume is " + std::to_string(volume) + " times that at rest") +
-                  ", which linear elasticity does not forbid: " + kCures);
+                  ", which linear elasticity does not forbid: " + cures(model()));
 }
 
 }  // namespace bem

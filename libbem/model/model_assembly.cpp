@@ -342,8 +342,10 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
   return targets;
 }
 
-void assemble_compressed(BodyModel& model, const PrecomputeOptions& options,
+void assemble_compressed(BodyModel& model, const PrecomputeOptions& given,
                          const Progress& progress) {
+  PrecomputeOptions options = given;
+  options.codec = codec_of_body(model.geometry, options.discretisation.method, given.codec);
   const auto assembler = make_slab_assembler<float>(model, assembly_precision(options), false);
   if (progress) progress("assembly", 0);
   const std::vector<Slab> slabs = make_partition(model.geometry.nodes.vertices, {});
@@ -418,8 +420,9 @@ StoredEstimate sample_compression(const BodyGeometry& geometry, const Precompute
   constexpr std::size_t kSamples = 3;
   constexpr double kOfInverse = 0.7;  // of the bytes of H_0 and G_0
   BodyModel model = empty_model(geometry, options);
-  PrecomputeOptions iterative = options;  // H_0 and G_0 are compressed
-  iterative.inverse = InverseKind::iterative;
+  PrecomputeOptions iterative = options;
+  iterative.codec = codec_of_body(geometry, options.discretisation.method, options.codec);
+  iterative.inverse = InverseKind::iterative;  // H_0 and G_0 are compressed
   const std::vector<Slab> all = make_partition(geometry.nodes.vertices, {});
   const std::size_t samples = std::min(kSamples, all.size());
   std::vector<Slab> slabs;

@@ -1,6 +1,7 @@
 #include "model/precompute.hpp"
 
 #include "base/error.hpp"
+#include "mesh/local_thickness.hpp"
 #include "model/balance.hpp"
 #include "model/growth.hpp"
 #include "model/model_assembly.hpp"
@@ -37,6 +38,20 @@ double automatic_window(const BodyModel& model) {
 }
 
 }  // namespace
+
+CodecOptions codec_of_body(const BodyGeometry& geometry, SpatialMethod method, CodecOptions codec) {
+  constexpr double kThin = 0.3;    // thickness over edges
+  constexpr double kGraded = 0.1;  // size of the smallest triangles over that of the largest
+  constexpr double kLeast = 0.01;  // of the tolerance
+  if (method != SpatialMethod::galerkin) return codec;
+  const std::vector<double> thickness = local_thickness(geometry.nodes),
+                            areas = vertex_areas(geometry.nodes);
+  const auto [smallest, largest] = std::minmax_element(areas.begin(), areas.end());
+  const double thin = *std::min_element(thickness.begin(), thickness.end()) / kThin,
+               graded = std::sqrt(*smallest / *largest) / kGraded;
+  codec.tolerance *= std::max(kLeast, std::min(1.0, thin) * std::min(1.0, graded));
+  return codec;
+}
 
 BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
                      const Progress& progress) {

@@ -21,6 +21,12 @@ struct PrecomputeOptions {
   bool measure_growth = true;
 };
 
+/// The codec with the tolerance that a body needs. Errors of a codec are relative to a whole
+/// matrix; where a body of the Galerkin method is thin, or its triangles are small beside others,
+/// its inertia is a small part of that, and motions would grow if it were lost: there the tolerance
+/// is as much smaller. O(n log n).
+CodecOptions codec_of_body(const BodyGeometry& geometry, SpatialMethod method, CodecOptions codec);
+
 /// How D(0) of the inertial form is stored: displacements of slow motions are multiplied by it,
 /// whose forces are a small part of what its largest entries make of others.
 inline CodecOptions stiffness_codec(CodecOptions options) {

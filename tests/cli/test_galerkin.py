@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from simulation_case import SimulationCase, program
+from simulation_case import SimulationCase, program, read_obj
 
 LENGTH, WIDTH, SHEAR, DENSITY, LOAD = 0.4, 0.2, 1e5, 1000, 200
 END = {"box": {"min": [-0.201, -1, -1], "max": [-0.199, 1, 1]}}
@@ -90,6 +90,79 @@ class Galerkin(SimulationCase):
                     "--force", "--quiet", "--dt", 40, "--inverse", inverse, "--codec-tol", tolerance, "--measure-growth")
             info = json.loads(program("bemprecomp", "--info", self.folder / "long.bem", "--json").stdout)
             self.assertLess(info["report"]["growth"], 1.0003, (inverse, tolerance))
+
+    def plucked(self, load, steps, dt):
+        """Positions of a beam of 1 m that is held at one face, in its moving frame, after a load at the other end."""
+        program("bemshape", "box", "--size", 1, 0.2, 0.2, "--divisions", 5, 1, 1, "-o", self.folder / "bar.obj")
+        (self.folder / "rubber.json").write_text(
+            json.dumps({"name": "rubber", "density": 1000, "shear_modulus": 1e6, "poisson_ratio": 0.3}))
+        program("bemprecomp", self.folder / "bar.obj", self.folder / "rubber.json", "-o", self.folder / "beam.bem",
+                "--force", "--quiet", "--dt", dt)
+        body = {"name": "bar", "archive": "beam.bem",
+                "fixed": [{"box": {"min": [-1, -1, -1], "max": [-0.499, 1, 1]}}],
+                "tractions": [{"select": {"box": {"min": [0.29, -1, -1], "max": [1, 1, 1]}},
+                               "traction": [3 * load, 2 * load, load], "profile": [[0, 1], [0.1, 1], [0.101, 0]]}]}
+        (x,), _ = self.run_of(body, steps=steps, dt=dt)
+        return x
+
+    def test_large_vibrations_of_held_bodies_stay_bounded(self):
+        """The work of the force that holds a body is that on its frame and that on its deformation."""
+        x = self.plucked(700, 2800, 0.005)
+        swing = np.linalg.norm(x - x[0], axis=2).max(axis=1)
+        self.assertGreater(swing[:700].max(), 0.2)
+        self.assertLess(swing[-700:].max(), 1.02 * swing[:700].max())
+
+    def test_small_vibrations_of_held_bodies_do_not_grow(self):
+        """Slow ones lose what the scheme takes of them, however long they last."""
+        dt, window = 0.01, 1500
+        x = self.plucked(1, 8000, dt)
+        tip = x[:, np.argmax(x[0, :, 0])] - x[0, np.argmax(x[0, :, 0])]
+
+        def slow(from_step):
+            spectrum = np.fft.rfft(tip[from_step:from_step + window] * np.hanning(window)[:, None], axis=0)
+            frequency = np.fft.rfftfreq(window, dt)
+            return np.linalg.norm(spectrum[(frequency > 1) & (frequency < 3)])
+
+        left = slow(6400) / slow(100)
+        self.assertLess(left, 1.0005)
+        self.assertGreater(left, 0.9)
+
+    def test_thin_rims_do_not_grow(self):
+        """A lens of 1 m and 20 mm: its resistance to being squeezed is what pairs of its triangles differ by."""
+        rim = [(0.5 * np.cos(t), 0.5 * np.sin(t), 0) for t in np.arange(8) * np.pi / 4]
+        faces = [(8, k, (k + 1) % 8) for k in range(8)] + [(9, (k + 1) % 8, k) for k in range(8)]
+        (self.folder / "bar.obj").write_text(
+            "".join(f"v {x} {y} {z}\n" for x, y, z in [*rim, (0, 0, 0.01), (0, 0, -0.01)]) +
+            "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces))
+        (self.folder / "rubber.json").write_text(
+            json.dumps({"name": "rubber", "density": 1000, "shear_modulus": 1e6, "poisson_ratio": 0.3}))
+        program("bemprecomp", self.folder / "bar.obj", self.folder / "rubber.json", "-o", self.folder / "lens.bem",
+                "--quiet", "--dt", 0.0055, "--scheme", "radau3", "--measure-growth", "--loads", "none")
+        info = json.loads(program("bemprecomp", "--info", self.folder / "lens.bem", "--json").stdout)
+        self.assertLess(info["report"]["growth"], 1.0003)
+
+    def test_bodies_with_cavities_are_left_to_collocation(self):
+        for name, radius in (("outer", 0.5), ("inner", 0.25)):
+            program("bemshape", "icosphere", "--subdivisions", 1, "--radius", radius, "-o", self.folder / f"{name}.obj")
+        outer, inner = (read_obj(self.folder / f"{name}.obj") for name in ("outer", "inner"))
+        faces = np.concatenate([outer[1], inner[1][:, ::-1] + len(outer[0])])
+        (self.folder / "bar.obj").write_text(
+            "".join("v %g %g %g\n" % tuple(v) for v in np.concatenate([outer[0], inner[0]])) +
+            "".join("f %d %d %d\n" % tuple(f + 1) for f in faces))
+        (self.folder / "rubber.json").write_text(
+            json.dumps({"name": "rubber", "density": 1000, "shear_modulus": 1e6, "poisson_ratio": 0.3}))
+        common = (self.folder / "bar.obj", self.folder / "rubber.json", "-o", self.folder / "shell.bem", "--dt", 0.0137,
+                  "--scheme", "bdf1", "--quiet")
+        done = program("bemprecomp", *common, "--discretisation", "galerkin", expect=3)
+        self.assertIn("bar.obj: the body has a cavity inside", done.stderr)
+        self.assertIn("use --discretisation collocation", done.stderr)
+        self.assertFalse((self.folder / "shell.bem").exists())
+        done = program("bemprecomp", *common)
+        self.assertIn("--discretisation collocation is used instead of galerkin", done.stderr)
+        info = json.loads(program("bemprecomp", "--info", self.folder / "shell.bem", "--json").stdout)
+        self.assertEqual(info["scheme"]["discretisation"], "collocation")
+        self.assertNotIn("galerkin", info["provenance"]["options"])
+        self.assertIn("--corner-angle-deg none", info["provenance"]["options"])
 
     def test_schemes_and_materials(self):
         """A load that sets in suddenly: vibrations between 0 and 2 about the static stretch, which decay or stay."""

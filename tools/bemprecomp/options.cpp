@@ -207,6 +207,8 @@ void check_static(const Options& o, const Scheme& scheme) {
   if (o.history || o.history_tolerance) refuse("--model static has no history");
   if (o.damping.time > 0) refuse("--model static has no damping");
   if (o.inverse == InverseKind::iterative) refuse("--model static needs --inverse dense");
+  if (o.window != 0 || o.measure_growth)
+    refuse("--model static has no growth: leave --window and --measure-growth away");
 }
 
 void check_inputs(const Options& o) {
@@ -258,6 +260,8 @@ Options checked(const CLI::App& app, Typed& t) {
               : t.model == "static" ? ModelKind::quasistatic
                                     : ModelKind::dynamic;
     if (o.scheme.empty()) o.scheme = o.model == ModelKind::quasistatic ? "bdf1" : "radau2";
+    o.method_given = given("--discretisation") > 0;
+    o.corners_given = t.corner_angle != "auto";
     o.corner_angle_deg = parse_corner_angle(t.corner_angle, o.method);
     o.damping = parse_damping(t.damping);
     o.window = parse_window(t.window);
@@ -300,6 +304,11 @@ std::string Options::canonical_text() const {
   if (inverse) text += *inverse == InverseKind::dense ? " --inverse dense" : " --inverse iterative";
   if (loads != "all") text += " --loads " + loads;
   return text + " --corner-angle-deg " + (corner_angle_deg ? to_text(*corner_angle_deg) : "none");
+}
+
+void Options::use_collocation() {
+  method = spatial_method_name(SpatialMethod::collocation);
+  if (!corners_given) corner_angle_deg = parse_corner_angle("auto", method);
 }
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {

@@ -18,8 +18,9 @@ struct Options {
   std::string mesh, material, output;
   std::optional<double> dt;  ///< [s]; else the material's
   ModelKind model = ModelKind::dynamic;
-  std::string scheme;               ///< a name that Scheme::parse() knows
-  std::string method = "galerkin";  ///< a name that parse_spatial_method() knows
+  std::string scheme;                                ///< a name that Scheme::parse() knows
+  std::string method = "galerkin";                   ///< a name that parse_spatial_method() knows
+  bool method_given = false, corners_given = false;  ///< or they are the defaults
   bool measure_growth = false;
   double window = 0;  ///< as PrecomputeOptions: 0 is "auto"
   std::optional<double> history_tolerance;
@@ -39,6 +40,8 @@ struct Options {
 
   /// The options that determine the matrices, in a fixed order.
   std::string canonical_text() const;
+  /// Takes collocation and its other defaults in place of the default discretisation.
+  void use_collocation();
 };
 
 /// Parses and checks a command line; an empty result means that help or version was printed. Throws

@@ -8,6 +8,7 @@
 #include "compress/dense_store.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
+#include "mesh/orientation.hpp"
 #include "mesh/solids.hpp"
 #include "model/model_assembly.hpp"
 #include "scene/material_json.hpp"
@@ -32,13 +33,31 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-BodyGeometry read_body(const Options& o, double density, std::vector<std::string>& warnings) {
+/// Around a cavity the equations of the Galerkin method hold for any rigid motion of its surface:
+/// such bodies are left to collocation.
+void settle_method(const Surface& surface, Options& o, std::vector<std::string>& warnings) {
+  if (o.model == ModelKind::rigid || parse_spatial_method(o.method) != SpatialMethod::galerkin ||
+      surface_components(surface.nodes).size() == 1)
+    return;
+  if (o.method_given)
+    throw Error(ErrorCode::invalid_input,
+                o.mesh +
+                    ": the body has a cavity inside, whose place --discretisation galerkin does "
+                    "not determine: use --discretisation collocation, or fill the cavity");
+  o.use_collocation();
+  warnings.push_back(o.mesh +
+                     ": the body has a cavity inside, so that --discretisation collocation is used "
+                     "instead of galerkin");
+}
+
+BodyGeometry read_body(Options& o, double density, std::vector<std::string>& warnings) {
   TriangleMesh mesh = read_mesh(o.mesh);
   if (o.mesh_scale != 1)
     for (Vec3& v : mesh.vertices) v *= o.mesh_scale;
   Surface surface = make_surface(std::move(mesh), o.mesh);
   check_single_solid(surface, o.mesh);
   warnings = surface.warnings;
+  settle_method(surface, o, warnings);
   BodyGeometry geometry = make_geometry(surface, density);
   geometry.corner_angle_deg = o.corner_angle_deg;
   return geometry;
@@ -139,6 +158,10 @@ void plan_history(const Options& o, Plan& plan) {
                                       " is too short: a shear wave takes " +
                                       to_text(std::round(plan.lam)) +
                                       " steps across the body; leave it away or use a larger --dt");
+  if (d.method == SpatialMethod::galerkin && d.history_length < std::floor(plan.lam + 2))
+    plan.warnings.push_back("the history of " + std::to_string(d.history_length) +
+                            " steps is shorter than the " + to_text(std::round(plan.lam)) +
+                            " steps that a shear wave takes across the body: motions may grow");
 }
 
 /// Factorisation, inverse and, if asked for, solution for n right-hand sides, for one initial
@@ -169,7 +192,7 @@ double seconds_per_byte_of_products() {
 
 }  // namespace
 
-Plan make_plan(const Options& o) {
+Plan make_plan(Options& o) {
   Plan plan;
   Discretisation& d = plan.options.discretisation;
   d.material = read_material(o.material);
@@ -182,11 +205,11 @@ Plan make_plan(const Options& o) {
   d.scheme = Scheme::parse(o.scheme);
   d.quadrature_tolerance = o.quadrature_tolerance;
   d.damping = o.damping;
-  d.method = parse_spatial_method(o.method);
-  plan.options.measure_growth = d.method == SpatialMethod::collocation || o.measure_growth;
   plan.options.window = o.window;
   if (o.model == ModelKind::dynamic) d.dt = time_step(o, d.material);
   plan.geometry = read_body(o, d.material.density, plan.warnings);
+  d.method = parse_spatial_method(o.method);
+  plan.options.measure_growth = d.method == SpatialMethod::collocation || o.measure_growth;
   plan_storage(o, plan);
   if (o.model == ModelKind::dynamic)
     plan_history(o, plan);

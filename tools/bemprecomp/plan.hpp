@@ -21,9 +21,10 @@ struct Plan {
   std::vector<std::string> warnings;
 };
 
-/// Reads and checks mesh and material. Throws ErrorCode::invalid_input, and ErrorCode::usage if no
-/// time step is given or it cannot be used.
-Plan make_plan(const Options& options);
+/// Reads and checks mesh and material. A body for which the default discretisation is not made gets
+/// another one: then `options` are changed, with a warning. Throws ErrorCode::invalid_input, and
+/// ErrorCode::usage if no time step is given or it cannot be used.
+Plan make_plan(Options& options);
 
 /// Throws ErrorCode::resources if the memory is more than the machine has.
 void check_memory(const Plan& plan);

@@ -103,7 +103,8 @@ int run_dry(const Plan& plan, Log& log) {
 
 }  // namespace
 
-int run_precompute(const Options& o, Log& log) {
+int run_precompute(const Options& given, Log& log) {
+  Options o = given;
   if (!o.dry_run) check_archive_target(o.output, o.force);
   Phases phases(log);
   phases.begin("mesh");

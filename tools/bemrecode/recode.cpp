@@ -101,7 +101,8 @@ const DenseFamily<float>& dense_family(const NamedFamily& named) {
   return *dense;
 }
 
-void recode(BodyModel& model, const CodecOptions& options) {
+void recode(BodyModel& model, const CodecOptions& given) {
+  const CodecOptions options = codec_of_body(model.geometry, model.discretisation.method, given);
   for (const NamedFamily& named : families_of(model)) {
     double error = 0;
     const bool stiffness = named.family == &model.stiffness;

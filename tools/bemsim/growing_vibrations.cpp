@@ -40,7 +40,8 @@ GrowingVibrations::GrowingVibrations(const Scene& scene) {
 void GrowingVibrations::record(const Simulation& simulation) {
   for (Watched& w : watched_) {
     const Body& body = simulation.bodies()[w.body];
-    if (!body.model().has_history()) continue;
+    const BodyModel& model = body.model();
+    if (!model.has_history() || model.discretisation.method == SpatialMethod::galerkin) continue;
     if (body.contact_nodes().empty() && simulation.time() > w.quiet_from)
       w.watch.add(body.displacement());
     else
@@ -64,11 +65,8 @@ std::vector<std::string> GrowingVibrations::warnings(const Simulation& simulatio
                   rounded_text(v->frequency / dt, 4) + " Hz, more by " +
                   rounded_text(100 * (std::pow(v->growth, 1 / v->frequency) - 1), 2) +
                   " % from period to period though nothing drives it, an error of the mesh: make "
-                  "its archive from a finer one, " +
-                  (model.discretisation.method == SpatialMethod::galerkin
-                       ? ""
-                       : "with --discretisation galerkin, ") +
-                  "with --window " + rounded_text(model.window / v->growth, 6) +
+                  "its archive from a finer one, with --discretisation galerkin, with --window " +
+                  rounded_text(model.window / v->growth, 6) +
                   ", or with --damping kelvin_voigt:" + rounded_text(damping, 2));
   }
   return out;

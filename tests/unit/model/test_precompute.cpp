@@ -8,6 +8,7 @@
 #include "model/precompute.hpp"
 #include "support/models.hpp"
 
+#include <cmath>
 #include <numeric>
 
 #include <catch2/catch.hpp>
@@ -124,4 +125,18 @@ TEST_CASE("the memory estimate counts the stored matrices") {
     CHECK(bytes == Approx(stored(precompute(g, o))).epsilon(0.1));
     CHECK(peak_bytes(g, o, compressed) > bytes);
   }
+}
+
+TEST_CASE("codecs are more exact where a body of the Galerkin method is thin or graded") {
+  const auto tolerance = [](const TriangleMesh& mesh, SpatialMethod method) {
+    return codec_of_body(geometry_of(mesh, 1000), method, {Codec::lowrank, 1e-4}).tolerance;
+  };
+  const TriangleMesh cube = box({1, 1, 1}, {2, 2, 2}), plate = box({1, 1, 0.02}, {5, 5, 1});
+  const double thin = 0.02 / (0.2 * std::sqrt(2.0)) / 0.3;
+  CHECK(tolerance(cube, SpatialMethod::galerkin) == 1e-4);
+  CHECK(tolerance(plate, SpatialMethod::galerkin) == Approx(1e-4 * thin));
+  CHECK(tolerance(plate, SpatialMethod::collocation) == 1e-4);
+
+  // cells at its corners are a twelfth of those in the middle
+  CHECK(tolerance(box({1, 1, 1}, {20, 20, 20}, 1), SpatialMethod::galerkin) < 1e-4);
 }

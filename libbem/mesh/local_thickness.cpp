@@ -1,0 +1,39 @@
+#include "mesh/local_thickness.hpp"
+
+#include "mesh/bounding_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bem {
+
+std::vector<double> local_thickness(const TriangleMesh& mesh) {
+  constexpr double kFacing = -0.5;  // cosine between normals below which triangles face each other
+  std::vector<Vec3> centres, normals;
+  std::vector<double> edges;
+  std::vector<BoundingBox> boxes;
+  for (const Triangle& t : mesh.triangles) {
+    centres.push_back(triangle_centroid(mesh, t));
+    normals.push_back(triangle_normal(mesh, t));
+    double longest = 0;
+    for (int i = 0; i < 3; ++i)
+      longest = std::max(longest, (mesh.vertices[t[i]] - mesh.vertices[t[(i + 1) % 3]]).norm());
+    edges.push_back(longest);
+    const Vec3 reach = Vec3::Constant(longest);
+    boxes.push_back({centres.back() - reach, centres.back() + reach});
+  }
+  std::vector<double> thickness(mesh.triangles.size(), 1);
+  const auto see = [&](int of, const Vec3& apart) {
+    if (apart.norm() < edges[of])
+      thickness[of] = std::min(thickness[of], std::abs(apart.dot(normals[of])) / edges[of]);
+  };
+  for (const auto& [a, b] : overlapping_pairs(boxes)) {
+    if (normals[a].dot(normals[b]) >= kFacing) continue;
+    const Vec3 apart = centres[b] - centres[a];
+    see(a, apart);
+    see(b, apart);
+  }
+  return thickness;
+}
+
+}  // namespace bem
