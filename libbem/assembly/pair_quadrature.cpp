@@ -21,6 +21,7 @@ constexpr double kDynamicPart = 0.05;                // of the square root of th
 // triangles on one side and pairs on opposite sides: errors of either must be smaller, or motions
 // grow.
 constexpr double kThin = 0.3, kVeryThin = 0.1;  // thickness over the longest edge
+constexpr double kThinnest = 0.01;              // that more exact rules are made for
 constexpr double kWavesWhereThin = 2;           // up to so many times the wave number
 
 double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -108,7 +109,7 @@ TouchingAccuracy PairQuadrature::dynamic_accuracy(int tx, int ty) const {
                        kDynamicPart * std::sqrt(tolerance_)};
   if (thin >= kThin) return out;
   out.away += thin < kVeryThin ? 2 : 1;
-  out.tolerance *= thin / kThin;
+  out.tolerance *= std::max(thin, kThinnest) / kThin;
   return out;
 }
 

@@ -44,10 +44,13 @@ void ConstraintSolver::begin_step(double t, double dt) {
 
 /// Moves all bodies under the current forces; returns the largest change of a rotation.
 double ConstraintSolver::update() {
-  for (Mechanism& m : mechanisms_) m.apply_forces();
-  placed_.apply_forces(forces_, *bodies_);
+  std::vector<ConstraintForces> by_body;
+  for (const Body& body : *bodies_) by_body.push_back(body.no_forces());
+  for (const Mechanism& m : mechanisms_) m.add_forces_to(by_body);
+  placed_.add_forces(forces_, *bodies_, by_body);
   double turn = 0;
-  for (Body& body : *bodies_) turn = std::max(turn, body.update());
+  for (std::size_t b = 0; b < bodies_->size(); ++b)
+    turn = std::max(turn, (*bodies_)[b].update(std::move(by_body[b])));
   return turn;
 }
 

@@ -149,8 +149,7 @@ void Mechanism::visit_state(StateArchive& state) {
   state.check(factors_->size() == unknowns());
 }
 
-void Mechanism::apply_forces() {
-  for (int body : bodies_) (*all_bodies_)[body].joint_forces().setZero();
+void Mechanism::add_forces_to(std::vector<ConstraintForces>& by_body) const {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Joint& joint = plan_->joints[joints_[j]];
     for (int a = 0; a < stages_; ++a) {
@@ -158,11 +157,11 @@ void Mechanism::apply_forces() {
       const Mat3& from = (*all_bodies_)[joint.a.body].rotation(a);
       for (const Attachment* end : {&joint.a, &joint.b}) {
         if (end->body < 0) continue;
-        Body& body = (*all_bodies_)[end->body];
+        const Body& body = (*all_bodies_)[end->body];
         const Vec3 local =
             end == &joint.a ? force : Vec3(-(body.rotation(a).transpose() * (from * force)));
         for (int i = 0; i < end->count; ++i)
-          body.joint_forces().col(a).segment<3>(3 * slot(end->body, end->nodes[i])) +=
+          by_body[end->body].joint.col(a).segment<3>(3 * slot(end->body, end->nodes[i])) +=
               end->weights[i] * local;
       }
     }

@@ -41,8 +41,9 @@ class Mechanism {
   void add_forces(const Eigen::VectorXd& change);
   const Eigen::MatrixXd& forces() const { return forces_; }
   void set_forces(const Eigen::MatrixXd& forces) { forces_ = forces; }
-  /// Writes the joint forces to the bodies, for the rotations of their last update.
-  void apply_forces();
+  /// Adds the joint forces to those of the bodies, for the rotations of their last update.
+  /// `by_body`: of all bodies.
+  void add_forces_to(std::vector<ConstraintForces>& by_body) const;
   /// Between two steps. The factorisation is part of the state: it may be of an earlier step.
   void visit_state(StateArchive& state);
   /// Impulse of the joints that connect the bodies with the world in the step that their last

@@ -80,18 +80,15 @@ Eigen::VectorXd PlacedContacts::displacements(const std::vector<Body>& bodies) c
   return u;
 }
 
-void PlacedContacts::apply_forces(const std::vector<Vec3>& forces,
-                                  std::vector<Body>& bodies) const {
+void PlacedContacts::add_forces(const std::vector<Vec3>& forces, const std::vector<Body>& bodies,
+                                std::vector<ConstraintForces>& by_body) const {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    Eigen::VectorXd& nodal = bodies[b].contact_forces();
-    Vec3& moment = bodies[b].contact_moment();
-    nodal.setZero();
-    moment.setZero();
     const Vec3 centre = bodies[b].frame().translation();
     for (const Port& p : ports[b]) {
       const Vec3 force = p.sign * forces[p.constraint];
-      for (int i = 0; i < p.count; ++i) nodal.segment<3>(3 * p.slots[i]) += p.weights[i] * force;
-      moment += (pairs[p.constraint].contact.point - centre).cross(force);
+      for (int i = 0; i < p.count; ++i)
+        by_body[b].contact.segment<3>(3 * p.slots[i]) += p.weights[i] * force;
+      by_body[b].contact_moment += (pairs[p.constraint].contact.point - centre).cross(force);
     }
   }
 }

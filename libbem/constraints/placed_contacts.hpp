@@ -30,8 +30,10 @@ struct PlacedContacts {
   /// Gap and slip of the contacts at the end of the step for the bodies as updated, in the frames
   /// of the contacts: 3 per contact [m].
   Eigen::VectorXd displacements(const std::vector<Body>& bodies) const;
-  /// Gives the bodies the world forces on the sides a of the contacts, and the opposite ones [N].
-  void apply_forces(const std::vector<Vec3>& forces, std::vector<Body>& bodies) const;
+  /// Adds the world forces on the sides a of the contacts, and the opposite ones on the sides b, to
+  /// those of all bodies [N].
+  void add_forces(const std::vector<Vec3>& forces, const std::vector<Body>& bodies,
+                  std::vector<ConstraintForces>& by_body) const;
 };
 
 /// Tells the bodies which of their nodes are in contact; their contact forces are zero after it.

@@ -90,8 +90,7 @@ Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec
     }
     loads_.push_back(std::move(p));
   }
-  joint_forces_ =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * joint_nodes_.size()), stage_count_);
+  forces_ = no_forces();
   displacement_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * shared.model->nodes()));
 }
 
@@ -120,8 +119,8 @@ FrameOffset::Leak Body::leak(bool held) const {
   if (window_rate() >= slow || (held && !m.stiffness))
     return FrameOffset::Leak::critical(window_rate());
   FrameOffset::Leak leak = FrameOffset::Leak::critical(slow);
-  constexpr double kDamped = 0.001;
-  if (m.stiffness) leak.damping *= kDamped;
+  constexpr double kDamped = 0.1, kHeldDamped = 0.001;
+  if (m.stiffness) leak.damping *= held ? kHeldDamped : kDamped;
   return leak;
 }
 
@@ -152,8 +151,7 @@ void Body::begin_step(SpectralState free, bool held, const std::optional<Holder>
   if (!has_inertia()) frame_.set_mobility(holder ? equilibrium_mobility(model()) : 0);
   set_drag(holder);
   contact_nodes_.clear();
-  contact_forces_.resize(0);
-  contact_moment_.setZero();
+  forget_contact_forces();
   stay();
   end_known_ = false;
 }
@@ -185,13 +183,25 @@ void Body::check_loadable(const std::vector<int>& nodes) const {
 void Body::set_contact_nodes(std::vector<int> nodes) {
   check_loadable(nodes);
   contact_nodes_ = std::move(nodes);
-  contact_forces_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * contact_nodes_.size()));
-  contact_moment_.setZero();
+  forget_contact_forces();
   if (elastic_) elastic_->set_contact_nodes(contact_nodes_);
 }
 
+ConstraintForces Body::no_forces() const {
+  const auto joints = static_cast<Eigen::Index>(3 * joint_nodes_.size()),
+             contacts = static_cast<Eigen::Index>(3 * contact_nodes_.size());
+  return {Eigen::MatrixXd::Zero(joints, stage_count_), Eigen::VectorXd::Zero(contacts),
+          Vec3::Zero()};
+}
+
+void Body::forget_contact_forces() {
+  const ConstraintForces none = no_forces();
+  forces_.contact = none.contact;
+  forces_.contact_moment = none.contact_moment;
+}
+
 NodalForces Body::nodal_forces() const {
-  NodalForces forces{joint_forces_, contact_forces_};
+  NodalForces forces{forces_.joint, forces_.contact};
   const Mat3 to_body = frame_stages_.rotation.back().transpose();
   for (std::size_t i = 0; i < contact_nodes_.size(); ++i) {
     auto f = forces.contact.segment<3>(static_cast<Eigen::Index>(3 * i));
@@ -230,7 +240,7 @@ FrameLoads Body::frame_loads() const {
       torque += p.load.torque() * p.stages.col(a);
     }
     for (std::size_t i = 0; i < joint_nodes_.size(); ++i) {
-      const Vec3 f = joint_forces_.col(a).segment<3>(static_cast<Eigen::Index>(3 * i));
+      const Vec3 f = forces_.joint.col(a).segment<3>(static_cast<Eigen::Index>(3 * i));
       force += f;
       torque += joint_lever(i, a).cross(f);
     }
@@ -240,14 +250,14 @@ FrameLoads Body::frame_loads() const {
   const Vec3 contact = contact_force();
   if (is_rigid()) {
     out.impulse = dt_ * contact;
-    out.angular_impulse = dt_ * contact_moment_;
+    out.angular_impulse = dt_ * forces_.contact_moment;
     return out;
   }
   // the points that contact forces act at stay where they are, whichever stage the frame is at
   for (int a = 0; a < stage_count_; ++a) {
     out.forces[a] += contact;
-    out.torques[a] +=
-        contact_moment_ - (frame_stages_.translation[a] - frame_.translation()).cross(contact);
+    out.torques[a] += forces_.contact_moment -
+                      (frame_stages_.translation[a] - frame_.translation()).cross(contact);
   }
   return out;
 }
@@ -255,7 +265,7 @@ FrameLoads Body::frame_loads() const {
 Vec3 Body::contact_force() const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < contact_nodes_.size(); ++i)
-    sum += contact_forces_.segment<3>(static_cast<Eigen::Index>(3 * i));
+    sum += forces_.contact.segment<3>(static_cast<Eigen::Index>(3 * i));
   return sum;
 }
 
@@ -281,7 +291,8 @@ double Body::set_centrifugal() {
   return change;
 }
 
-double Body::update() {
+double Body::update(ConstraintForces forces) {
+  forces_ = std::move(forces);
   end_known_ = false;
   // forces that were tried and were too large leave nothing behind
   const auto finite = [](const auto& x) { return x.allFinite(); };

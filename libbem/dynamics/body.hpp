@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dynamics/constraint_forces.hpp"
 #include "dynamics/corner_loads.hpp"
 #include "dynamics/deformation_watch.hpp"
 #include "dynamics/elastic_part.hpp"
@@ -55,25 +56,20 @@ class Body {
   Eigen::MatrixXd history_sums() const { return elastic_->history_sums(loads_); }
   SolutionMemory& solution_memory() { return elastic_->solution_memory(); }
 
-  /// Starts a step from the displacements without new loads (rigid bodies: none). Joint forces
-  /// start from those of the last step. `held`: joints hold the body in the world; `holder`: they
-  /// leave it no rigid motion but this.
+  /// Starts a step from the displacements without new loads (rigid bodies: none). `held`: joints
+  /// hold the body in the world; `holder`: they leave it no rigid motion but this.
   void begin_step(SpectralState free, bool held, const std::optional<Holder>& holder);
   /// Chooses the nodes in contact; their forces are zero after it.
   void set_contact_nodes(std::vector<int> nodes);
 
   const std::vector<JointNode>& joint_nodes() const { return joint_nodes_; }
   const std::vector<int>& contact_nodes() const { return contact_nodes_; }
-  Eigen::MatrixXd& joint_forces() { return joint_forces_; }      ///< 3 per node x s [N]
-  Eigen::VectorXd& contact_forces() { return contact_forces_; }  ///< 3 per node [N]
-  /// Moment of the contact forces about where the centre of mass is at the start of the step, in
-  /// world axes [N m]. It is given apart from them because both bodies of a contact must take the
-  /// same point of action, or angular momentum would be lost.
-  Vec3& contact_moment() { return contact_moment_; }
+  /// Forces of zero on these nodes.
+  ConstraintForces no_forces() const;
 
-  /// Moves frame and constraint nodes under the current loads and forces, whose directions depend
-  /// on the rotations of the last call. Returns how much these have changed [rad].
-  double update();
+  /// Moves frame and constraint nodes under the current loads and these forces, whose directions
+  /// depend on the rotations of the last call. Returns how much these have changed [rad].
+  double update(ConstraintForces forces);
 
   /// After update(): world positions of constraint nodes [m] and rotation of the frame.
   Vec3 joint_position(std::size_t i, int stage) const;
@@ -137,6 +133,7 @@ class Body {
   void check_loadable(const std::vector<int>& nodes) const;
   double stage_time(int stage) const;
   double set_centrifugal();
+  void forget_contact_forces();
   void stay();
   FrameLoads frame_loads() const;
   double contact_gain() const;
@@ -165,9 +162,7 @@ class Body {
   std::vector<JointNode> joint_nodes_;
   std::vector<Vec3> anchor_levers_;  ///< by joint node: where its traction acts, in body axes
   std::vector<int> contact_nodes_;
-  Eigen::MatrixXd joint_forces_;
-  Eigen::VectorXd contact_forces_;
-  Vec3 contact_moment_ = Vec3::Zero();
+  ConstraintForces forces_;
   RigidFrame::Stages frame_stages_;
   std::vector<Mat3> force_rotation_;
   ElasticPart::Displacements node_displacements_;

@@ -24,14 +24,15 @@ std::vector<double> local_thickness(const TriangleMesh& mesh) {
   }
   std::vector<double> thickness(mesh.triangles.size(), 1);
   const auto see = [&](int of, const Vec3& apart) {
-    if (apart.norm() < edges[of])
-      thickness[of] = std::min(thickness[of], std::abs(apart.dot(normals[of])) / edges[of]);
+    const double depth = -apart.dot(normals[of]);  // what lies outside is across a gap
+    if (depth >= 0 && apart.norm() < edges[of])
+      thickness[of] = std::min(thickness[of], depth / edges[of]);
   };
   for (const auto& [a, b] : overlapping_pairs(boxes)) {
     if (normals[a].dot(normals[b]) >= kFacing) continue;
     const Vec3 apart = centres[b] - centres[a];
     see(a, apart);
-    see(b, apart);
+    see(b, -apart);
   }
   return thickness;
 }

@@ -6,10 +6,9 @@
 
 namespace bem {
 
-/// How thick a body is at each triangle of its surface, as a part of the triangle's longest edge:
-/// the height of the lowest triangle over or under it that faces the other way and is no farther
-/// than that edge, at most 1. Heights are those of centroids. O(n log n) if few triangles are that
-/// close.
+/// How thick a body is at each triangle of its outward surface, as a part of the triangle's longest
+/// edge: the depth of the highest triangle below it that faces the other way and is no farther than
+/// that edge, at most 1. Depths are those of centroids. O(n log n) if few triangles are that close.
 std::vector<double> local_thickness(const TriangleMesh& mesh);
 
 }  // namespace bem

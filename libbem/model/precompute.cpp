@@ -43,12 +43,19 @@ CodecOptions codec_of_body(const BodyGeometry& geometry, SpatialMethod method, C
   constexpr double kThin = 0.3;    // thickness over edges
   constexpr double kGraded = 0.1;  // size of the smallest triangles over that of the largest
   constexpr double kLeast = 0.01;  // of the tolerance
+  constexpr double kFew = 0.05;    // of the triangles, of the nodes
   if (method != SpatialMethod::galerkin) return codec;
-  const std::vector<double> thickness = local_thickness(geometry.nodes),
-                            areas = vertex_areas(geometry.nodes);
-  const auto [smallest, largest] = std::minmax_element(areas.begin(), areas.end());
-  const double thin = *std::min_element(thickness.begin(), thickness.end()) / kThin,
-               graded = std::sqrt(*smallest / *largest) / kGraded;
+  // what few triangles have does not count
+  const auto quantile = [](std::vector<double> values, double share) {
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  };
+  const std::vector<double> areas = vertex_areas(geometry.nodes);
+  const double thin = quantile(local_thickness(geometry.nodes), kFew) / kThin,
+               sizes = std::sqrt(quantile(areas, kFew) / quantile(areas, 1 - kFew)),
+               graded = sizes / kGraded;
   codec.tolerance *= std::max(kLeast, std::min(1.0, thin) * std::min(1.0, graded));
   return codec;
 }

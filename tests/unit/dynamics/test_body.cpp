@@ -44,8 +44,9 @@ struct Trial {
     settle();
   }
 
-  void settle() {
-    for (int i = 0; i < 20; ++i) body->update();
+  void settle() { settle(body->no_forces()); }
+  void settle(const ConstraintForces& forces) {
+    for (int i = 0; i < 20; ++i) body->update(forces);
   }
 
   /// Positions of a group of nodes at a stage, in the axes the body starts with.
@@ -79,16 +80,17 @@ TEST_CASE("compliances are the derivatives of the positions by the forces") {
             std::vector<Eigen::VectorXd> before;
             for (int a = 0; a < stages; ++a) before.push_back(trial.positions(Group::joint, a));
             before.push_back(trial.positions(Group::contact, stages - 1));
+            ConstraintForces forces = body.no_forces();
             if (columns == Group::joint) {
-              body.joint_forces()(j, b) = kForce;
+              forces.joint(j, b) = kForce;
             } else {
               const int node = body.contact_nodes()[j / 3];
               const Vec3 force = kForce * to_world.col(j % 3);
-              body.contact_forces().segment<3>(3 * (j / 3)) = force;
-              body.contact_moment() =
+              forces.contact.segment<3>(3 * (j / 3)) = force;
+              forces.contact_moment =
                   (to_world * body.model().geometry.nodes.vertices[node]).cross(force);
             }
-            trial.settle();
+            trial.settle(forces);
             for (int a = 0; a <= stages; ++a) {
               const Group rows = a < stages ? Group::joint : Group::contact;
               const Eigen::VectorXd moved =
@@ -100,9 +102,6 @@ TEST_CASE("compliances are the derivatives of the positions by the forces") {
               CHECK((moved - block.col(j)).norm() <=
                     1e-5 * block.colwise().norm().maxCoeff() + rounding);
             }
-            body.joint_forces().setZero();
-            body.contact_forces().setZero();
-            body.contact_moment().setZero();
             trial.settle();
           }
     }
@@ -112,9 +111,10 @@ TEST_CASE("the end of a step is where its constraint nodes are") {
   for (const char* scheme : {"radau2", "radau3", "theta:0.5"}) {
     Trial trial(scheme, false);
     Body& body = *trial.body;
-    body.joint_forces().setConstant(0.3);
-    body.contact_forces().setConstant(-0.2);
-    trial.settle();
+    ConstraintForces forces = body.no_forces();
+    forces.joint.setConstant(0.3);
+    forces.contact.setConstant(-0.2);
+    trial.settle(forces);
     const std::vector<Vec3> end = body.end_positions();
     for (std::size_t i = 0; i < 2; ++i)
       CHECK((end[body.joint_nodes()[i].node] - body.joint_position(i, body.stages() - 1)).norm() <
@@ -131,13 +131,12 @@ TEST_CASE("forces that are too large for numbers leave nothing behind when they 
   for (bool rigid : {false, true}) {
     Trial trial("radau2", rigid);
     const Eigen::VectorXd before = trial.positions(Group::contact, 1);
-    trial.body->contact_forces().setConstant(1e300);
-    trial.body->contact_moment().setConstant(1e300);
-    trial.body->update();
-    trial.body->update();
+    ConstraintForces forces = trial.body->no_forces();
+    forces.contact.setConstant(1e300);
+    forces.contact_moment.setConstant(1e300);
+    trial.body->update(forces);
+    trial.body->update(forces);
     CHECK(!trial.positions(Group::contact, 1).allFinite());
-    trial.body->contact_forces().setZero();
-    trial.body->contact_moment().setZero();
     trial.settle();
     CHECK((trial.positions(Group::contact, 1) - before).norm() <= 1e-12 * before.norm());
   }
