@@ -1,13 +1,13 @@
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "files/isolated_process.hpp"
-#include <catch2/catch.hpp>
 
 #include <csignal>
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
 
+#include <catch2/catch.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
