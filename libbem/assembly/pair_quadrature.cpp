@@ -20,9 +20,9 @@ constexpr double kDynamicPart = 0.05;                // of the square root of th
 // Where a body is thin, its inertia against being squeezed is the small difference between pairs of
 // triangles on one side and pairs on opposite sides: errors of either must be smaller, or motions
 // grow.
-constexpr double kThin = 0.3, kVeryThin = 0.1;  // thickness over the longest edge
-constexpr double kThinnest = 0.01;              // that more exact rules are made for
-constexpr double kWavesWhereThin = 2;           // up to so many times the wave number
+constexpr double kVeryThin = 0.1;      // below kThinBody
+constexpr double kThinnest = 0.01;     // that more exact rules are made for
+constexpr double kWavesWhereThin = 2;  // up to so many times the wave number
 
 double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
@@ -95,7 +95,7 @@ bool PairQuadrature::midpoints_suffice(double distance, double longest_edge,
 
 /// Up to which waves are resolved between two triangles that are not far from each other [1/m].
 double PairQuadrature::wave_number(int tx, int ty) const {
-  return (thickness(tx, ty) < kThin ? kWavesWhereThin : 1) * wave_number_;
+  return (thickness(tx, ty) < kThinBody ? kWavesWhereThin : 1) * wave_number_;
 }
 
 /// For triangles that touch. Leading terms of Z times shape functions are polynomials away from
@@ -107,9 +107,9 @@ TouchingAccuracy PairQuadrature::dynamic_accuracy(int tx, int ty) const {
   TouchingAccuracy out{kDynamicAway + static_cast<int>(more + std::floor(waves)),
                        kDynamicAlong + static_cast<int>(more + std::ceil(waves)),
                        kDynamicPart * std::sqrt(tolerance_)};
-  if (thin >= kThin) return out;
+  if (thin >= kThinBody) return out;
   out.away += thin < kVeryThin ? 2 : 1;
-  out.tolerance *= std::max(thin, kThinnest) / kThin;
+  out.tolerance *= std::max(thin, kThinnest) / kThinBody;
   return out;
 }
 

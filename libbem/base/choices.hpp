@@ -16,7 +16,7 @@ struct Choice {
 
 /// The values of an enumeration T and their names, in the order in which messages list them. An
 /// enumeration that is read has a specialisation with a static array `all` beside its definition;
-/// readers, help texts, schemas and messages take the names from there.
+/// readers, schemas and messages take the names from there.
 template <class T>
 struct Choices;
 

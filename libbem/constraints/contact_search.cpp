@@ -43,7 +43,7 @@ bool ContactSearch::find(bool friction, Attempt& best, PhaseTimes& times) {
       const PhaseStopwatch timer(times.collision);
       found = collisions_.detect(bodies_);
     }
-    const double allowed = t.penetration_allowed(pass);
+    const double allowed = tolerances_.penetration_allowed(pass);
     const KnownContacts::Finding now = KnownContacts::judge(found, -allowed);
     statistics_.contacts_complete = now.broken.empty();
     statistics_.penetration = now.deepest;

@@ -9,16 +9,11 @@ ContactTolerances::ContactTolerances(double tolerance, double smallest_body)
   detection.tolerance = tolerance;
   detection.margin = std::max(1e-3 * smallest_body, 2 * tolerance);
   detection.recovery_depth = std::max(5e-3 * smallest_body, 2 * tolerance);
-  search.tolerance = tolerance;
   search.first_error = 1e-4 * smallest_body;
   search.last_error = 0.1 * tolerance;
   search.deep = 5e-4 * smallest_body;
   search.late_penetration = std::max(2e-5 * smallest_body, tolerance);
   iteration.goal = 0.05 * tolerance;
-}
-
-double ContactTolerances::Search::penetration_allowed(int passes) const {
-  return passes < strict_passes ? tolerance : late_penetration;
 }
 
 }  // namespace bem

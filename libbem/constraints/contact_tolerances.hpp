@@ -37,12 +37,12 @@ struct ContactTolerances {
     double inexactness = 0.02;
     int most_replacements = 2;  ///< of a known contact by another one of the same vertex or edge
     int most_views = 3;         ///< that are kept of a contact besides the last one
-
-    /// Penetration with which the search may end after some passes [m].
-    double penetration_allowed(int passes) const;
-    double tolerance;  ///< as above [m]
   };
   Search search;
+  /// Penetration with which the search may end after some passes [m].
+  double penetration_allowed(int passes) const {
+    return passes < search.strict_passes ? tolerance : search.late_penetration;
+  }
 
   /// The iteration for the forces of a set of contacts (ConstraintSolver).
   struct Iteration {

@@ -195,9 +195,8 @@ ConstraintForces Body::no_forces() const {
 }
 
 void Body::forget_contact_forces() {
-  const ConstraintForces none = no_forces();
-  forces_.contact = none.contact;
-  forces_.contact_moment = none.contact_moment;
+  forces_.contact.setZero(static_cast<Eigen::Index>(3 * contact_nodes_.size()));
+  forces_.contact_moment.setZero();
 }
 
 NodalForces Body::nodal_forces() const {

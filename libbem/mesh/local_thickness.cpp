@@ -3,7 +3,6 @@
 #include "mesh/bounding_tree.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bem {
 
@@ -15,11 +14,8 @@ std::vector<double> local_thickness(const TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     centres.push_back(triangle_centroid(mesh, t));
     normals.push_back(triangle_normal(mesh, t));
-    double longest = 0;
-    for (int i = 0; i < 3; ++i)
-      longest = std::max(longest, (mesh.vertices[t[i]] - mesh.vertices[t[(i + 1) % 3]]).norm());
-    edges.push_back(longest);
-    const Vec3 reach = Vec3::Constant(longest);
+    edges.push_back(longest_edge(mesh, t));
+    const Vec3 reach = Vec3::Constant(edges.back());
     boxes.push_back({centres.back() - reach, centres.back() + reach});
   }
   std::vector<double> thickness(mesh.triangles.size(), 1);

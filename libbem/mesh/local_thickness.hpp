@@ -11,4 +11,7 @@ namespace bem {
 /// that edge, at most 1. Depths are those of centroids. O(n log n) if few triangles are that close.
 std::vector<double> local_thickness(const TriangleMesh& mesh);
 
+/// Thickness below which the Galerkin method needs more exact integrals and matrices.
+inline constexpr double kThinBody = 0.3;
+
 }  // namespace bem

@@ -40,7 +40,6 @@ double automatic_window(const BodyModel& model) {
 }  // namespace
 
 CodecOptions codec_of_body(const BodyGeometry& geometry, SpatialMethod method, CodecOptions codec) {
-  constexpr double kThin = 0.3;    // thickness over edges
   constexpr double kGraded = 0.1;  // size of the smallest triangles over that of the largest
   constexpr double kLeast = 0.01;  // of the tolerance
   constexpr double kFew = 0.05;    // of the triangles, of the nodes
@@ -53,7 +52,7 @@ CodecOptions codec_of_body(const BodyGeometry& geometry, SpatialMethod method, C
     return *at;
   };
   const std::vector<double> areas = vertex_areas(geometry.nodes);
-  const double thin = quantile(local_thickness(geometry.nodes), kFew) / kThin,
+  const double thin = quantile(local_thickness(geometry.nodes), kFew) / kThinBody,
                sizes = std::sqrt(quantile(areas, kFew) / quantile(areas, 1 - kFew)),
                graded = sizes / kGraded;
   codec.tolerance *= std::max(kLeast, std::min(1.0, thin) * std::min(1.0, graded));
