@@ -17,7 +17,7 @@ PLAN = {
     "kernels": "base",
     "quadrature": "base",
     "assembly": "base algebra mesh kernels quadrature",
-    "compress": "base algebra mesh",
+    "compress": "base files algebra mesh",
     "model": "base algebra mesh kernels assembly compress",
     "archive": "base files mesh kernels compress model",
     "collision": "base mesh",

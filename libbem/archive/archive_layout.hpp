@@ -8,32 +8,9 @@
 
 namespace bem {
 
-/// Attribute "model" of the root.
-inline const char* model_name(ModelKind kind) {
-  switch (kind) {
-    case ModelKind::rigid:
-      return "rigid";
-    case ModelKind::quasistatic:
-      return "static";
-    case ModelKind::dynamic:
-      break;
-  }
-  return "dynamic";
-}
-
-/// Attribute "inverse" of the root.
-inline const char* inverse_name(bool iterative) {
-  return iterative ? "iterative" : "dense";
-}
-
-/// Attribute "loads" of the root.
-inline const char* loads_name(Loads loads) {
-  return loads == Loads::all ? "all" : loads == Loads::some ? "some" : "none";
-}
-
 /// Names of the matrices of lag 0: that of displacements, and that of tractions.
-inline const char* initial_name(bool iterative, bool tractions) {
-  if (iterative) return tractions ? "initial_g" : "initial_h";
+inline const char* initial_name(InverseKind kind, bool tractions) {
+  if (kind == InverseKind::iterative) return tractions ? "initial_g" : "initial_h";
   return tractions ? "traction_response" : "inverse";
 }
 

@@ -1,10 +1,5 @@
 #include "archive/archive_layout.hpp"
 #include "archive/archive_reader.hpp"
-#include "archive/haar_storage.hpp"
-#include "archive/low_rank_storage.hpp"
-#include "base/finite.hpp"
-#include "base/parallel.hpp"
-#include "compress/dense_family.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -14,8 +9,6 @@
 namespace bem {
 namespace {
 
-constexpr std::size_t kTileBytes = std::size_t(32) << 20;
-
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 }  // namespace
@@ -24,136 +17,32 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 class Archive::Loading {
  public:
   Loading(const Archive& archive, bool motion, bool tractions, const Progress& progress)
-      : archive_(archive),
-        file_(archive.file_),
-        n_(archive.unknowns()),
-        precision_(archive.precision()),
-        progress_(progress) {
-    for (const FamilyPlace& place : archive.family_places())
-      if (place.of_tractions ? tractions : motion) total_ += bytes_of(place);
+      : archive_(archive), progress_(progress) {
+    for (const PlacedFamily& family : archive.families())
+      if (family.of_tractions ? tractions : motion)
+        total_ += codec().bytes(archive.file_, family.place, archive.unknowns());
   }
 
   double bytes() const { return total_; }
 
-  std::unique_ptr<MatrixFamily> load(const FamilyPlace& place) {
-    if (archive_.codec() != Codec::none) return load_compressed(place, nullptr);
-    return precision_ == Precision::float32 ? load_dense<float>(place) : load_dense<double>(place);
+  std::unique_ptr<MatrixFamily> load(const FamilyPlace& place,
+                                     const std::vector<int>* columns = nullptr) {
+    return codec().read(archive_.file_, place, archive_.unknowns(), columns, report_);
   }
-
-  std::unique_ptr<MatrixFamily> load_columns(const FamilyPlace& place,
-                                             const std::vector<int>& columns) {
-    if (archive_.codec() != Codec::none) return load_compressed(place, &columns);
-    return precision_ == Precision::float32 ? pick_columns<float>(place, columns)
-                                            : pick_columns<double>(place, columns);
-  }
-
   void check_numbers(const FamilyPlace& place) {
-    if (archive_.codec() != Codec::none) {
-      load_compressed(place, nullptr);
-      return;
-    }
-    if (precision_ == Precision::float32)
-      read_tiles<float>(place);
-    else
-      read_tiles<double>(place);
+    codec().check_numbers(archive_.file_, place, archive_.unknowns(), report_);
   }
 
  private:
-  double bytes_of(const FamilyPlace& place) const {
-    if (archive_.codec() == Codec::none)
-      return static_cast<double>(place.paths.size()) * static_cast<double>(n_ * n_) *
-             static_cast<double>(bytes_per_entry(precision_));
-    const bool haar = archive_.codec() == Codec::haar;
-    double bytes = 0;
-    for (const char* name : {haar ? "/gaps" : "/analysis", haar ? "/values" : "/synthesis"})
-      for (std::size_t extent : file_.dims(place.group + name))
-        bytes += static_cast<double>(extent);
-    return bytes;
-  }
-
-  std::unique_ptr<MatrixFamily> load_compressed(const FamilyPlace& place,
-                                                const std::vector<int>* columns) {
-    const int count = static_cast<int>(place.paths.size());
-    const auto done = [this](std::size_t bytes) { report(static_cast<double>(bytes)); };
-    if (archive_.codec() == Codec::haar)
-      return read_haar(file_, place.group, n_, count, columns, done);
-    return read_low_rank(file_, place.group, n_, count, columns, done);
-  }
-
-  template <class T>
-  std::unique_ptr<MatrixFamily> load_dense(const FamilyPlace& place) {
-    auto family = std::make_unique<DenseFamily<T>>(n_, static_cast<int>(place.paths.size()));
-    for (std::size_t k = 0; k < place.paths.size(); ++k) {
-      DenseStore<T>& store = family->matrix(static_cast<int>(k));
-      for_each_tile<T>([&](std::size_t first, std::size_t rows) {
-        read_rows(place.paths[k], first, rows, store.row(first));
-      });
-    }
-    return family;
-  }
-
-  template <class T>
-  std::unique_ptr<MatrixFamily> pick_columns(const FamilyPlace& place,
-                                             const std::vector<int>& columns) {
-    auto family =
-        std::make_unique<ColumnFamily<T>>(n_, columns, static_cast<int>(place.paths.size()));
-    std::vector<T> tile(std::min(n_, tile_rows<T>()) * n_);
-    for (std::size_t k = 0; k < place.paths.size(); ++k) {
-      ColumnStore<T>& store = family->matrix(static_cast<int>(k));
-      for_each_tile<T>([&](std::size_t first, std::size_t rows) {
-        read_rows(place.paths[k], first, rows, tile.data());
-        parallel_for(columns.size(), [&](std::size_t c) {
-          T* column = store.column(c) + first;
-          for (std::size_t i = 0; i < rows; ++i)
-            column[i] = tile[i * n_ + static_cast<std::size_t>(columns[c])];
-        });
-      });
-    }
-    return family;
-  }
-
-  /// For the checks alone.
-  template <class T>
-  void read_tiles(const FamilyPlace& place) {
-    std::vector<T> tile(std::min(n_, tile_rows<T>()) * n_);
-    for (const std::string& path : place.paths)
-      for_each_tile<T>(
-          [&](std::size_t first, std::size_t rows) { read_rows(path, first, rows, tile.data()); });
-  }
-
-  /// Rows of a matrix, which must be finite.
-  template <class T>
-  void read_rows(const std::string& path, std::size_t first, std::size_t rows, T* out) const {
-    file_.read_rows(path, first, rows, out);
-    if (!all_finite(out, rows * n_)) archive_.refuse(path + " has a number that is not finite");
-  }
-
-  template <class T>
-  std::size_t tile_rows() const {
-    return std::max<std::size_t>(1, kTileBytes / (n_ * sizeof(T)));
-  }
-
-  template <class T, class F>
-  void for_each_tile(const F& f) {
-    const std::size_t tile = tile_rows<T>();
-    for (std::size_t first = 0; first < n_; first += tile) {
-      const std::size_t rows = std::min(tile, n_ - first);
-      f(first, rows);
-      report(static_cast<double>(rows * n_ * bytes_per_entry(precision_)));
-    }
-  }
-
-  void report(double bytes) {
-    done_ += bytes;
-    if (progress_) progress_("reading", std::min(1.0, done_ / total_));
-  }
+  const Codec& codec() const { return archive_.codec(); }
 
   const Archive& archive_;
-  const Hdf5File& file_;
-  std::size_t n_;
-  Precision precision_;
   double total_ = 0, done_ = 0;
   const Progress& progress_;
+  BytesReport report_ = [this](std::size_t bytes) {
+    done_ += static_cast<double>(bytes);
+    if (progress_) progress_("reading", std::min(1.0, done_ / total_));
+  };
 };
 
 BodyModel Archive::load(bool tractions, const Progress& progress) const {
@@ -164,7 +53,6 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
   model.discretisation = discretisation_;
   if (kind_ == ModelKind::rigid) return model;
   model.window = window_;
-  model.precision = precision_;
   model.report = report_;
   BodyForce force = load_body_force(kBodyForce);
   model.body_force = std::move(force.lags);
@@ -179,15 +67,15 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
   model.loaded_nodes = loaded_nodes_;
   Loading loading(*this, true, tractions, progress);
   const auto load = [&](const std::string& group) -> std::unique_ptr<MatrixFamily> {
-    for (const FamilyPlace& place : family_places())
-      if (place.group == group) return loading.load(place);
+    for (const PlacedFamily& family : families())
+      if (family.place.group == group) return loading.load(family.place);
     return nullptr;
   };
-  auto& h = iterative_ ? model.initial_h : model.inverse;
-  auto& g = iterative_ ? model.initial_g : model.traction_response;
+  auto& h = is_iterative() ? model.initial_h : model.inverse;
+  auto& g = is_iterative() ? model.initial_g : model.traction_response;
   for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i) {
-    h.push_back(load(initial_path(initial_name(iterative_, false), i)));
-    if (tractions) g.push_back(load(initial_path(initial_name(iterative_, true), i)));
+    h.push_back(load(initial_path(initial_name(inverse_, false), i)));
+    if (tractions) g.push_back(load(initial_path(initial_name(inverse_, true), i)));
   }
   model.h = load(lags_path("h"));
   if (is_inertial()) model.stiffness = load(kStiffness);
@@ -203,15 +91,8 @@ double Archive::matrix_bytes(bool tractions) const {
 }
 
 std::size_t Archive::history_coefficients() const {
-  if (codec_ == Codec::none || discretisation_.history_length == 0) return 0;
-  if (codec_ == Codec::haar) return unknowns();
-  const std::string group = lags_path("h");
-  const auto count = [&](const char* scales) {
-    const Hdf5Dims dims = file_.dims(group + scales);
-    return dims.empty() ? 0 : dims[0];
-  };
-  const bool symmetric = file_.has_attribute(group, kSymmetricAttribute);
-  return count("/input_scales") + (symmetric ? count("/output_scales") : 0);
+  if (discretisation_.history_length == 0) return 0;
+  return codec_->coefficients(file_, {lags_path("h"), {}}, unknowns());
 }
 
 void Archive::check_matrices(const Progress& progress) const {
@@ -221,7 +102,7 @@ void Archive::check_matrices(const Progress& progress) const {
   for (const char* path : {kBalancePath, kTractionBalancePath}) load_balance(path);
   load_traction_moments();
   Loading loading(*this, true, true, progress);
-  for (const FamilyPlace& place : family_places()) loading.check_numbers(place);
+  for (const PlacedFamily& family : families()) loading.check_numbers(family.place);
 }
 
 TractionData Archive::load_tractions(const std::vector<int>& nodes,
@@ -234,23 +115,24 @@ TractionData Archive::load_tractions(const std::vector<int>& nodes,
   TractionData data;
   data.nodes = nodes;
   Loading loading(*this, false, true, progress);
-  for (const FamilyPlace& place : family_places()) {
-    if (!place.of_tractions) continue;
-    if (place.group == lags_path("g"))
-      data.lags = loading.load_columns(place, columns);
+  for (const PlacedFamily& family : families()) {
+    if (!family.of_tractions) continue;
+    auto loaded = loading.load(family.place, &columns);
+    if (family.place.group == lags_path("g"))
+      data.lags = std::move(loaded);
     else
-      data.initial.push_back(loading.load_columns(place, columns));
+      data.initial.push_back(std::move(loaded));
   }
   return data;
 }
 
 void Archive::read_matrix_rows(const std::string& path, std::size_t first, std::size_t rows,
                                double* out) const {
-  if (codec_ == Codec::none) {
+  if (codec_->is_lossless()) {
     file_.read_rows(path, first, rows, out);
     return;
   }
-  for (const FamilyPlace& place : family_places()) {
+  for (const auto& [place, of_tractions] : families()) {
     const auto at = std::find(place.paths.begin(), place.paths.end(), path);
     if (at == place.paths.end()) continue;
     if (family_group_ != place.group) {

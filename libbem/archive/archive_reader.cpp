@@ -40,42 +40,34 @@ Archive::Archive(const std::string& path)
   check_matrix_datasets();
 }
 
+template <class T>
+T Archive::read_choice(const std::string& name, T missing) const {
+  if (!file_.has_attribute("/", name)) return missing;
+  const std::string text = file_.string_attribute("/", name);
+  const std::optional<T> value = find_choice<T>(text);
+  if (!value)
+    refuse("has the " + name + " \"" + text + "\", but this version of the program understands " +
+           choice_list<T>() + " only");
+  return *value;
+}
+
 void Archive::read_kind() {
-  const std::string name = file_.string_attribute("/", "model");
-  for (ModelKind kind : {ModelKind::dynamic, ModelKind::quasistatic, ModelKind::rigid})
-    if (name == model_name(kind)) {
-      kind_ = kind;
-      return;
-    }
-  refuse("has the model \"" + name +
-         "\", but this version of the program understands \"dynamic\", \"static\" and \"rigid\" "
-         "only");
+  file_.string_attribute("/", "model");  // must be there
+  kind_ = read_choice("model", kind_);
 }
 
 /// What is stored, and how. Archives without "inverse" or "loads" have everything.
 void Archive::read_storage() {
-  if (file_.has_attribute("/", "inverse")) {
-    const std::string inverse = file_.string_attribute("/", "inverse");
-    iterative_ = inverse == inverse_name(true);
-    if (inverse != inverse_name(iterative_)) refuse("has the unknown inverse \"" + inverse + "\"");
-  }
-  if (file_.has_attribute("/", "loads")) {
-    const std::string loads = file_.string_attribute("/", "loads");
-    for (Loads kind : {Loads::all, Loads::some, Loads::none})
-      if (loads == loads_name(kind)) loads_ = kind;
-    if (loads != loads_name(loads_)) refuse("has the unknown loads \"" + loads + "\"");
-  }
-  const std::string codec = file_.string_attribute("/", "codec");
-  for (Codec compressed : {Codec::haar, Codec::lowrank})
-    if (codec == codec_name(compressed)) {
-      codec_ = compressed;
-      return;
-    }
-  require_text("codec", codec_name(Codec::none));
-  const std::string precision = file_.string_attribute("/", "precision");
-  if (precision != "float32" && precision != "float64")
-    refuse("has the unknown precision \"" + precision + "\"");
-  precision_ = precision == "float32" ? Precision::float32 : Precision::float64;
+  inverse_ = read_choice("inverse", inverse_);
+  loads_ = read_choice("loads", loads_);
+  const std::string name = file_.string_attribute("/", "codec");
+  codec_ = find_codec(name);
+  if (!codec_)
+    refuse("has the codec \"" + name + "\", but this version of the program understands " +
+           list_text(codec_names()) + " only");
+  if (!codec_->is_lossless()) return;
+  file_.string_attribute("/", "precision");  // must be there
+  codec_ = find_codec(name, read_choice("precision", Precision::float32));
 }
 
 void Archive::refuse(const std::string& what) const {
@@ -253,33 +245,32 @@ bool Archive::is_paired(std::size_t initial_component) const {
   return discretisation_.scheme.initial_components()[initial_component].paired;
 }
 
-std::vector<Archive::FamilyPlace> Archive::family_places() const {
-  std::vector<FamilyPlace> places;
-  if (kind_ == ModelKind::rigid) return places;
+std::vector<Archive::PlacedFamily> Archive::families() const {
+  std::vector<PlacedFamily> families;
+  if (kind_ == ModelKind::rigid) return families;
   const bool tractions = loads_ != Loads::none;
   for (bool of_tractions : {false, true}) {
     if (of_tractions && !tractions) break;
-    const char* matrix = initial_name(iterative_, of_tractions);
+    const char* matrix = initial_name(inverse_, of_tractions);
     for (std::size_t i = 0; i < discretisation_.scheme.initial_components().size(); ++i)
-      places.push_back(
-          {initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1), of_tractions});
+      families.push_back({{initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1)},
+                          of_tractions});
   }
-  if (is_inertial()) places.push_back({kStiffness, {std::string(kStiffness) + "/real"}, false});
+  if (is_inertial()) families.push_back({{kStiffness, {std::string(kStiffness) + "/real"}}, false});
   for (bool of_tractions : {false, true}) {
     if (discretisation_.history_length == 0 || (of_tractions && !tractions)) break;
     const char* matrix = of_tractions ? "g" : "h";
-    places.push_back(
-        {lags_path(matrix),
-         lag_paths(matrix, discretisation_.history_length, static_cast<int>(lag_components())),
-         of_tractions});
+    families.push_back({{lags_path(matrix), lag_paths(matrix, discretisation_.history_length,
+                                                      static_cast<int>(lag_components()))},
+                        of_tractions});
   }
-  return places;
+  return families;
 }
 
 std::vector<std::string> Archive::matrix_paths() const {
   std::vector<std::string> paths;
-  for (const FamilyPlace& place : family_places())
-    paths.insert(paths.end(), place.paths.begin(), place.paths.end());
+  for (const PlacedFamily& family : families())
+    paths.insert(paths.end(), family.place.paths.begin(), family.place.paths.end());
   return paths;
 }
 

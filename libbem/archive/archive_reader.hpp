@@ -33,11 +33,9 @@ class Archive {
   const BodyGeometry& geometry() const { return geometry_; }
   const Discretisation& discretisation() const { return discretisation_; }
   double window() const { return window_; }
-  Codec codec() const { return codec_; }
-  /// Of uncompressed matrices.
-  Precision precision() const { return precision_; }
-  /// Whether steps solve with H_0, as there is no inverse.
-  bool is_iterative() const { return iterative_; }
+  const Codec& codec() const { return *codec_; }
+  InverseKind inverse_kind() const { return inverse_; }
+  bool is_iterative() const { return inverse_ == InverseKind::iterative; }
   /// Where surface loads, contacts and joints may act.
   Loads loads() const { return loads_; }
   /// Of Loads::some, ascending.
@@ -91,13 +89,15 @@ class Archive {
  private:
   class Loading;
 
-  /// A family of large matrices: where it is, and the paths of its matrices.
-  struct FamilyPlace {
-    std::string group;
-    std::vector<std::string> paths;
+  /// A family of large matrices.
+  struct PlacedFamily {
+    FamilyPlace place;
     bool of_tractions;  ///< loads, contacts and joints alone need it
   };
-  std::vector<FamilyPlace> family_places() const;
+  std::vector<PlacedFamily> families() const;
+  /// The value of an attribute of the root; `missing` if it is not there.
+  template <class T>
+  T read_choice(const std::string& name, T missing) const;
   [[noreturn]] void refuse(const std::string& what) const;
   void read_kind();
   void read_storage();
@@ -128,9 +128,8 @@ class Archive {
   BodyGeometry geometry_;
   Discretisation discretisation_;
   double window_ = 1;
-  Codec codec_ = Codec::none;
-  Precision precision_ = Precision::float32;
-  bool iterative_ = false;
+  const Codec* codec_ = CodecOptions().codec;
+  InverseKind inverse_ = InverseKind::dense;
   Loads loads_ = Loads::all;
   std::vector<int> loaded_nodes_;
   ModelReport report_;

@@ -21,19 +21,8 @@ void Archive::check_matrix_datasets() {
   if (loads_ != Loads::none) contents_.check_datasets(file_, kBalance, kTractionBalancePath);
   for (const std::string& path : traction_moment_paths())
     contents_.check_datasets(file_, kBalance, path);
-  for (const FamilyPlace& place : family_places()) {
-    if (codec_ == Codec::haar)
-      contents_.check_datasets(file_, kHaarDatasets, place.group);
-    else if (codec_ == Codec::lowrank)
-      contents_.check_datasets(file_, kLowRankDatasets, place.group);
-    else
-      for (const std::string& path : place.paths)
-        contents_.check(
-            file_, precision_ == Precision::float32 ? kSingleMatrix[0] : kDoubleMatrix[0], path);
-    if (codec_ != Codec::none && file_.int_attribute(place.group, "matrices") !=
-                                     static_cast<std::int64_t>(place.paths.size()))
-      refuse(place.group + " is a family of another number of matrices");
-  }
+  for (const PlacedFamily& family : families())
+    codec_->check_datasets(file_, family.place, unknowns());
 }
 
 void Archive::check_body_force_datasets(const char* name) {

@@ -126,26 +126,4 @@ inline constexpr StoredDataset kBodyForceInitial[] = {
 inline constexpr StoredDataset kBalance[] = {
     {"", Hdf5Type::float64, 2, {6, Count::unknowns, 0, 0}}};
 
-/// A matrix of an uncompressed family.
-inline constexpr StoredDataset kSingleMatrix[] = {
-    {"", Hdf5Type::float32, 2, {Count::unknowns, Count::unknowns, 0, 0}}};
-inline constexpr StoredDataset kDoubleMatrix[] = {
-    {"", Hdf5Type::float64, 2, {Count::unknowns, Count::unknowns, 0, 0}}};
-
-/// In the groups of compressed families.
-inline constexpr StoredDataset kLowRankDatasets[] = {
-    {"/slabs", Hdf5Type::int32, 2, {Count::bytes, 3, 0, 0}},
-    {"/blocks", Hdf5Type::int32, 2, {Count::bytes, 17, 0, 0}},
-    {"/couplings", Hdf5Type::int32, 2, {Count::bytes, 6, 0, 0}},
-    {"/analysis", Hdf5Type::uint8, 1, {Count::bytes, 0, 0, 0}},
-    {"/synthesis", Hdf5Type::uint8, 1, {Count::bytes, 0, 0, 0}},
-    {"/input_scales", Hdf5Type::float32, 1, {Count::bytes, 0, 0, 0}},
-    {"/output_scales", Hdf5Type::float32, 1, {Count::bytes, 0, 0, 0}},
-};
-inline constexpr StoredDataset kHaarDatasets[] = {
-    {"/rows", Hdf5Type::int32, 2, {Count::bytes, 2, 0, 0}},
-    {"/gaps", Hdf5Type::uint8, 1, {Count::bytes, 0, 0, 0}},
-    {"/values", Hdf5Type::uint8, 1, {Count::bytes, 0, 0, 0}},
-};
-
 }  // namespace bem

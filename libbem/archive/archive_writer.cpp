@@ -2,12 +2,8 @@
 
 #include "archive/archive_contents.hpp"
 #include "archive/archive_layout.hpp"
-#include "archive/haar_storage.hpp"
-#include "archive/low_rank_storage.hpp"
 #include "archive/scheme_tables.hpp"
 #include "archive/user_block.hpp"
-#include "compress/block_partition.hpp"
-#include "compress/dense_family.hpp"
 #include "files/hdf5.hpp"
 #include "files/pending_file.hpp"
 
@@ -17,9 +13,6 @@
 
 namespace bem {
 namespace {
-
-constexpr double kBlockBytes = 68, kCouplingBytes = 24;  // of tables of compressed matrices
-constexpr std::size_t kTileBytes = std::size_t(32) << 20;
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -41,14 +34,10 @@ std::vector<const MatrixFamily*> large_families(const BodyModel& model) {
   return families;
 }
 
-/// Of the tables that describe the blocks of compressed families.
+/// Of the tables of compressed families.
 double table_bytes(const BodyModel& model) {
   double bytes = 0;
-  for (const MatrixFamily* family : large_families(model))
-    if (const auto* compressed = dynamic_cast<const LowRankFamily*>(family))
-      for (const LowRankSlab& slab : compressed->slabs())
-        bytes += 12 + kBlockBytes * static_cast<double>(slab.blocks.size()) +
-                 kCouplingBytes * static_cast<double>(slab.couplings.size());
+  for (const MatrixFamily* family : large_families(model)) bytes += family->table_bytes();
   return bytes;
 }
 
@@ -167,41 +156,14 @@ class MatrixWriter {
   MatrixWriter(Hdf5File& file, double total_bytes, const Progress& progress)
       : file_(file), total_(total_bytes), progress_(progress) {}
 
-  /// `group` holds a compressed family; of an uncompressed one every matrix has a dataset of
-  /// paths[k].
-  void write(const std::string& group, const std::vector<std::string>& paths,
-             const MatrixFamily& family) {
-    if (const auto* single = dynamic_cast<const DenseFamily<float>*>(&family))
-      write_dense(paths, *single);
-    else if (const auto* full = dynamic_cast<const DenseFamily<double>*>(&family))
-      write_dense(paths, *full);
-    else if (const auto* compressed = dynamic_cast<const LowRankFamily*>(&family))
-      write_low_rank(file_, group, *compressed, [this](std::size_t bytes) { report(bytes); });
-    else if (const auto* haar = dynamic_cast<const HaarFamily*>(&family))
-      write_haar(file_, group, *haar, [this](std::size_t bytes) { report(bytes); });
-    else
-      throw Error(ErrorCode::internal, "an archive cannot hold matrices of this codec");
+  void write(const FamilyPlace& place, const MatrixFamily& family) {
+    family.write(file_, place, [this](std::size_t bytes) {
+      written_ += static_cast<double>(bytes);
+      if (progress_) progress_("writing", std::min(1.0, written_ / total_));
+    });
   }
 
  private:
-  template <class T>
-  void write_dense(const std::vector<std::string>& paths, const DenseFamily<T>& family) {
-    for (int k = 0; k < family.count(); ++k) {
-      const DenseStore<T>& store = family.matrix(k);
-      file_.create_dataset(paths[k], hdf5_type<T>(), {store.rows(), store.columns()});
-      const std::size_t tile = std::max<std::size_t>(1, kTileBytes / (store.columns() * sizeof(T)));
-      for (std::size_t first = 0; first < store.rows(); first += tile) {
-        const std::size_t rows = std::min(tile, store.rows() - first);
-        file_.write_rows(paths[k], first, rows, store.row(first));
-        report(rows * store.columns() * sizeof(T));
-      }
-    }
-  }
-  void report(std::size_t bytes) {
-    written_ += static_cast<double>(bytes);
-    if (progress_) progress_("writing", std::min(1.0, written_ / total_));
-  }
-
   Hdf5File& file_;
   double total_, written_ = 0;
   const Progress& progress_;
@@ -237,7 +199,7 @@ void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& prog
   write_body_force(file, model, kBodyForce, model.body_force, model.initial_body_force);
   if (model.has_centrifugal())
     write_body_force(file, model, kCentrifugal, model.centrifugal, model.initial_centrifugal);
-  const bool iterative = model.is_iterative(), tractions = model.loads != Loads::none;
+  const bool tractions = model.loads != Loads::none;
   const SpatialMethod method = model.discretisation.method;
   write_small(file, kBalancePath, model.balance);
   if (tractions) write_small(file, kTractionBalancePath, model.traction_balance);
@@ -245,23 +207,25 @@ void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& prog
     write_parts(file, model, kTractionMoments, i, model.traction_moments[i]);
   const auto write_initial = [&](bool of_tractions,
                                  const std::vector<std::unique_ptr<MatrixFamily>>& families) {
-    const char* name = initial_name(iterative, of_tractions);
+    const char* name = initial_name(model.inverse_kind(), of_tractions);
     for (std::size_t i = 0; i < families.size(); ++i)
-      writer.write(initial_path(name, i), initial_paths(name, i, families[i]->count()),
+      writer.write({initial_path(name, i), initial_paths(name, i, families[i]->count())},
                    *families[i]);
     file.set_attribute(lags_path(name), "unit", matrix_unit(method, name));
   };
-  write_initial(false, iterative ? model.initial_h : model.inverse);
-  if (tractions) write_initial(true, iterative ? model.initial_g : model.traction_response);
+  write_initial(false, model.is_iterative() ? model.initial_h : model.inverse);
+  if (tractions)
+    write_initial(true, model.is_iterative() ? model.initial_g : model.traction_response);
   const auto write_lags = [&](const char* name, const MatrixFamily& family) {
-    writer.write(lags_path(name),
-                 lag_paths(name, model.discretisation.history_length, model.components()), family);
+    writer.write(
+        {lags_path(name), lag_paths(name, model.discretisation.history_length, model.components())},
+        family);
     file.set_attribute(lags_path(name), "unit", matrix_unit(method, name));
   };
   if (model.h) write_lags("h", *model.h);
   if (model.g) write_lags("g", *model.g);
   if (!model.stiffness) return;
-  writer.write(kStiffness, {std::string(kStiffness) + "/real"}, *model.stiffness);
+  writer.write({kStiffness, {std::string(kStiffness) + "/real"}}, *model.stiffness);
   file.set_attribute(kStiffness, "unit", "N/m");
 }
 
@@ -300,15 +264,10 @@ double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& opti
   if (options.kind == ModelKind::rigid) return overhead_bytes(geometry, 0);
   const double lags = d.history_length * static_cast<double>(d.scheme.lag_components().size());
   const double kinds = options.loads == Loads::none ? 1 : 2;
-  if (options.codec.codec != Codec::lowrank) return stored + overhead_bytes(geometry, kinds * lags);
-  const double blocks = [&] {
-    double count = 0;
-    for (const Slab& s : make_partition(geometry.nodes.vertices, {}))
-      count += static_cast<double>(s.blocks.size());
-    return count;
-  }();
+  const Codec& codec = *options.codec.codec;
+  if (!codec.is_sampled()) return stored + overhead_bytes(geometry, kinds * lags);
   const double matrices = kinds * (lags + d.scheme.initial_components().size() * 2.0);
-  return stored + blocks * (kBlockBytes * 2 * kinds + kCouplingBytes * matrices) +
+  return stored + codec.expected_table_bytes(geometry.nodes.vertices, 2 * kinds, matrices) +
          overhead_bytes(geometry, 10 * kinds);
 }
 
@@ -329,17 +288,16 @@ void write_archive(const std::string& path, const BodyModel& model, const Proven
   Hdf5File file = Hdf5File::create(pending.temporary_path(), options);
   file.set_attribute("/", "format", "bem matrix archive");
   file.set_attribute("/", "format_version", kArchiveVersion);
-  file.set_attribute("/", "model", model_name(model.kind));
+  file.set_attribute("/", "model", choice_name(model.kind));
   write_geometry(file, model.geometry);
   write_material(file, model.discretisation.material);
   write_provenance(file, provenance);
   if (!rigid) {
-    file.set_attribute("/", "codec", codec_name(model.codec));
-    if (model.codec == Codec::none)
-      file.set_attribute("/", "precision",
-                         model.precision == Precision::float32 ? "float32" : "float64");
-    file.set_attribute("/", "inverse", inverse_name(model.is_iterative()));
-    file.set_attribute("/", "loads", loads_name(model.loads));
+    file.set_attribute("/", "codec", model.codec->name());
+    if (model.codec->is_lossless())
+      file.set_attribute("/", "precision", choice_name(*model.codec->precision()));
+    file.set_attribute("/", "inverse", choice_name(model.inverse_kind()));
+    file.set_attribute("/", "loads", choice_name(model.loads));
     if (model.loads == Loads::some) write_indices(file, kLoadedNodes[0].path, model.loaded_nodes);
     write_scheme(file, model);
     write_report(file, model.report);

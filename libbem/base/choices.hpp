@@ -42,14 +42,18 @@ std::optional<T> find_choice(const std::string& name) {
   return std::nullopt;
 }
 
+/// "a, b or c".
+inline std::string list_text(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
+  return out;
+}
+
 /// "a, b or c" with the names of T.
 template <class T>
 std::string choice_list() {
-  constexpr std::size_t count = Choices<T>::all.size();
-  std::string out;
-  for (std::size_t i = 0; i < count; ++i)
-    out += (i == 0 ? "" : i + 1 < count ? ", " : " or ") + std::string(Choices<T>::all[i].name);
-  return out;
+  return list_text(choice_names<T>());
 }
 
 }  // namespace bem

@@ -2,8 +2,10 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "compress/dense_storage.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace bem {
 namespace {
@@ -169,6 +171,25 @@ template <class T>
 Eigen::MatrixXd ColumnFamily<T>::block(int matrix, const std::vector<int>& rows,
                                        const std::vector<int>& columns) const {
   return matrices_[matrix].block(rows, slots_of(columns));
+}
+
+template <class T>
+std::unique_ptr<MatrixFamily> DenseFamily<T>::pick_columns(const std::vector<int>& columns) const {
+  std::vector<int> all_rows(rows());
+  std::iota(all_rows.begin(), all_rows.end(), 0);
+  auto out = std::make_unique<ColumnFamily<T>>(rows(), columns, count());
+  for (int k = 0; k < count(); ++k) {
+    const Eigen::MatrixXd entries = block(k, all_rows, columns);
+    std::transform(entries.data(), entries.data() + entries.size(), out->matrix(k).column(0),
+                   [](double x) { return static_cast<T>(x); });
+  }
+  return out;
+}
+
+template <class T>
+void DenseFamily<T>::write(Hdf5File& file, const FamilyPlace& place,
+                           const BytesReport& report) const {
+  write_dense(file, place, *this, report);
 }
 
 template class DenseFamily<float>;

@@ -30,6 +30,8 @@ class DenseFamily : public MatrixFamily {
                         const std::vector<int>& columns) const override {
     return matrices_[matrix].block(rows, columns);
   }
+  std::unique_ptr<MatrixFamily> pick_columns(const std::vector<int>& columns) const override;
+  void write(Hdf5File& file, const FamilyPlace& place, const BytesReport& report) const override;
 
   DenseStore<T>& matrix(int k) { return matrices_[k]; }
   const DenseStore<T>& matrix(int k) const { return matrices_[k]; }

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "compress/haar_storage.hpp"
 
 #include <algorithm>
 
@@ -165,6 +166,10 @@ Eigen::MatrixXd HaarFamily::block(int matrix, const std::vector<int>& rows,
       out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = entries[columns[j]];
   });
   return out;
+}
+
+void HaarFamily::write(Hdf5File& file, const FamilyPlace& place, const BytesReport& report) const {
+  write_haar(file, place.group, *this, report);
 }
 
 std::unique_ptr<HaarFamily> HaarFamily::restrict_to(const std::vector<int>& columns) const {

@@ -34,6 +34,8 @@ class HaarFamily : public MatrixFamily {
   Eigen::MatrixXd block(int matrix, const std::vector<int>& rows,
                         const std::vector<int>& columns) const override;
 
+  void write(Hdf5File& file, const FamilyPlace& place, const BytesReport& report) const override;
+
   /// Without the coefficients that vectors with entries in some columns (ascending) do not meet.
   std::unique_ptr<HaarFamily> restrict_to(const std::vector<int>& columns) const;
 

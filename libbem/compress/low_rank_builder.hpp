@@ -4,8 +4,6 @@
 #include "compress/block_partition.hpp"
 #include "compress/low_rank_family.hpp"
 
-#include <cmath>
-
 namespace bem {
 
 /// Compresses the matrices of a family slab by slab: of each only the rows of one slab need be
@@ -23,12 +21,6 @@ class LowRankBuilder : public FamilyBuilder<float> {
   /// `checked`: a last step of the trials that goes far is looked at before it is made.
   static double choose_quantum(const Slab& slab, const std::vector<MatrixView<float>>& matrices,
                                double error, bool checked);
-
-  /// About the spectral norm of errors of this Frobenius norm in n x n entries, which are spread as
-  /// if at random.
-  static double spectral_norm(double frobenius, Eigen::Index n) {
-    return 2 * frobenius / std::sqrt(static_cast<double>(n));
-  }
 
   /// The rows of the next slab.
   void add_rows(const std::vector<MatrixView<float>>& matrices) override;

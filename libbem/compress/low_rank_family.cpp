@@ -3,6 +3,7 @@
 #include "algebra/blas.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "compress/low_rank_storage.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -390,6 +391,20 @@ void LowRankFamily::multiply_transposed_add(const std::vector<FamilyTerm>& unsor
     for (std::size_t o = 0; o < outputs.size(); ++o)
       Eigen::Map<Eigen::VectorXd>(outputs[o], size) +=
           part.col(static_cast<Eigen::Index>(o)).cast<double>();
+}
+
+void LowRankFamily::write(Hdf5File& file, const FamilyPlace& place,
+                          const BytesReport& report) const {
+  write_low_rank(file, place.group, *this, report);
+}
+
+double LowRankFamily::table_bytes() const {
+  constexpr double kSlabBytes = 12;
+  double bytes = 0;
+  for (const LowRankSlab& slab : slabs_)
+    bytes += kSlabBytes + kBlockBytes * static_cast<double>(slab.blocks.size()) +
+             kCouplingBytes * static_cast<double>(slab.couplings.size());
+  return bytes;
 }
 
 FloatMatrix LowRankFamily::multiply_left(const FloatMatrix& x, int matrix) const {

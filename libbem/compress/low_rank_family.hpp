@@ -71,8 +71,12 @@ class LowRankFamily : public MatrixFamily {
   Eigen::MatrixXd block(int matrix, const std::vector<int>& rows,
                         const std::vector<int>& columns) const override;
 
-  /// X A_matrix for many rows at once, in single precision: p x size. Of a general family.
-  FloatMatrix multiply_left(const FloatMatrix& x, int matrix) const;
+  /// Of a general family.
+  FloatMatrix multiply_left(const FloatMatrix& x, int matrix) const override;
+  void write(Hdf5File& file, const FamilyPlace& place, const BytesReport& report) const override;
+  double table_bytes() const override;
+  /// Of the tables of a block, and of its coupling in a matrix.
+  static constexpr double kBlockBytes = 68, kCouplingBytes = 24;
 
   double quantum() const { return quantum_; }
   MatrixForm form() const { return form_; }

@@ -1,18 +1,12 @@
 #pragma once
 
 #include "base/types.hpp"
+#include "compress/family_storage.hpp"
 
 #include <memory>
 #include <vector>
 
 namespace bem {
-
-/// Number format of uncompressed matrix entries.
-enum class Precision { float32, float64 };
-
-inline std::size_t bytes_per_entry(Precision p) {
-  return p == Precision::float32 ? 4 : 8;
-}
 
 /// One product of a sum: outputs[output] += factor * matrix * input.
 struct FamilyTerm {
@@ -72,6 +66,18 @@ class MatrixFamily {
   /// Entries at the crossings of some rows and columns.
   virtual Eigen::MatrixXd block(int matrix, const std::vector<int>& rows,
                                 const std::vector<int>& columns) const = 0;
+  /// X A_matrix for many rows at once, in single precision: p x size.
+  virtual Eigen::MatrixXf multiply_left(const Eigen::MatrixXf& x, int matrix) const;
+  /// A smaller family for vectors with entries in some columns (ascending) only; null if parts that
+  /// they do not meet are not worth a copy of the others.
+  virtual std::unique_ptr<MatrixFamily> pick_columns(const std::vector<int>& /*columns*/) const {
+    return nullptr;
+  }
+
+  /// Writes it to an archive, where its codec reads it. Not of families of some columns.
+  virtual void write(Hdf5File& file, const FamilyPlace& place, const BytesReport& report) const;
+  /// Of tables that write() stores besides the values.
+  virtual double table_bytes() const { return 0; }
 };
 
 /// Terms in the order of their matrices.

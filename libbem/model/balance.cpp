@@ -226,8 +226,8 @@ void compute_balance(BodyModel& model) {
   if (model.discretisation.method == SpatialMethod::galerkin) return set_exact_balance(model);
   constexpr double kAcceptable = 1e-4;
   constexpr int kMostIterations = 300, kPatience = 60;  // bending of thin bodies comes late
-  const bool full = model.codec == Codec::none && model.precision == Precision::float64;
-  const double tolerance = full ? 1e-13 : 1e-9;  // beyond what the matrices know
+  const double tolerance =
+      model.codec->is_double() ? 1e-13 : 1e-9;  // beyond what the matrices know
   const ElasticSystem system(model, 1);
   const Scheme& scheme = model.discretisation.scheme;
   const int stages = scheme.stages();

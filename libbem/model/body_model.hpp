@@ -32,13 +32,32 @@ enum class ModelKind {
   rigid         ///< geometry and mass alone
 };
 
+template <>
+struct Choices<ModelKind> {
+  static constexpr std::array<Choice<ModelKind>, 3> all = {{{ModelKind::dynamic, "dynamic"},
+                                                            {ModelKind::quasistatic, "static"},
+                                                            {ModelKind::rigid, "rigid"}}};
+};
+
 /// Where surface loads, contacts and joints may act on a body.
 enum class Loads { all, some, none };
+
+template <>
+struct Choices<Loads> {
+  static constexpr std::array<Choice<Loads>, 3> all = {
+      {{Loads::all, "all"}, {Loads::some, "some"}, {Loads::none, "none"}}};
+};
 
 /// How a step solves with the matrices of lag 0.
 enum class InverseKind {
   dense,     ///< with the stored inverse, from a dense factorisation
   iterative  ///< with H_0 itself
+};
+
+template <>
+struct Choices<InverseKind> {
+  static constexpr std::array<Choice<InverseKind>, 2> all = {
+      {{InverseKind::dense, "dense"}, {InverseKind::iterative, "iterative"}}};
 };
 
 /// Everything that is precomputed for one body. Lag matrices are numbered as in LaneLayout and
@@ -53,8 +72,7 @@ struct BodyModel {
   std::vector<int> loaded_nodes;  ///< of Loads::some: which, ascending; others' columns are zero
                                   ///< but for rounding
   double window = 1;              ///< factor per lag on all weights, see docs/method.md
-  Codec codec = Codec::none;
-  Precision precision = Precision::float32;  ///< of uncompressed matrices
+  const Codec* codec = CodecOptions().codec;  ///< of the large matrices
 
   /// 3N x 3N, lags >= 1; no g: Loads::none; neither: no history. h multiplies displacements or, in
   /// the inertial form, accelerations [kg]: then
@@ -86,6 +104,9 @@ struct BodyModel {
   bool has_centrifugal() const { return !initial_centrifugal.empty(); }
   bool has_history() const { return discretisation.history_length > 0; }
   bool is_iterative() const { return !initial_h.empty(); }
+  InverseKind inverse_kind() const {
+    return is_iterative() ? InverseKind::iterative : InverseKind::dense;
+  }
   std::size_t nodes() const { return geometry.nodes.vertices.size(); }
   int components() const { return static_cast<int>(discretisation.scheme.lag_components().size()); }
   int lag_index(int lag, int component) const { return (lag - 1) * components() + component; }

@@ -2,8 +2,6 @@
 
 #include "base/parallel.hpp"
 #include "compress/complex_product.hpp"
-#include "compress/direct_builder.hpp"
-#include "compress/low_rank_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,13 +20,12 @@ MatrixView<Stored> view(const Eigen::Matrix<Stored, Eigen::Dynamic, Eigen::Dynam
 }
 
 template <class Stored, class T>
-std::unique_ptr<MatrixFamily> store_rows(const DenseMatrix<T>& m, const CodecOptions& codec,
-                                         double& error) {
+std::unique_ptr<MatrixFamily> store_rows(const BodyModel& model, const DenseMatrix<T>& m,
+                                         const CodecOptions& codec, double& error) {
   using Part = Eigen::Matrix<Stored, Eigen::Dynamic, Eigen::Dynamic>;
   constexpr bool paired = std::is_same_v<T, Complex>;
-  const int nodes = static_cast<int>(m.rows() / 3);
-  const auto builder = make_direct_builder<Stored>(codec, nodes, paired ? 2 : 1);
-  for (const Slab& slab : direct_slabs(codec, nodes)) {
+  const auto builder = make_builder<Stored>(codec, static_cast<int>(model.nodes()), paired ? 2 : 1);
+  for (const Slab& slab : codec.codec->slabs(model.geometry.nodes.vertices)) {
     const auto rows = m.middleRows(3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin));
     if constexpr (paired) {
       const Part real = rows.real().template cast<Stored>();
@@ -47,8 +44,8 @@ std::unique_ptr<MatrixFamily> store_rows(const DenseMatrix<T>& m, const CodecOpt
 template <class T>
 std::unique_ptr<MatrixFamily> store(const BodyModel& model, const DenseMatrix<T>& m,
                                     const CodecOptions& codec, double& error) {
-  return model.precision == Precision::float32 ? store_rows<float>(m, codec, error)
-                                               : store_rows<double>(m, codec, error);
+  return codec.codec->is_double() ? store_rows<double>(model, m, codec, error)
+                                  : store_rows<float>(model, m, codec, error);
 }
 
 template <class T>
@@ -134,8 +131,9 @@ void invert_dense(BodyModel& model, DenseMatrix<T>&& h, DenseMatrix<T>* g,
 
 /// Rows of a matrix as single precision parts: real, and imaginary of a complex one.
 template <class T>
-std::vector<FloatMatrix> parts(const DenseMatrix<T>& m, Eigen::Index first, Eigen::Index count) {
-  std::vector<FloatMatrix> out;
+std::vector<Eigen::MatrixXf> parts(const DenseMatrix<T>& m, Eigen::Index first,
+                                   Eigen::Index count) {
+  std::vector<Eigen::MatrixXf> out;
   if constexpr (std::is_same_v<T, Complex>) {
     out.emplace_back(m.middleRows(first, count).real().template cast<float>());
     out.emplace_back(m.middleRows(first, count).imag().template cast<float>());
@@ -145,15 +143,16 @@ std::vector<FloatMatrix> parts(const DenseMatrix<T>& m, Eigen::Index first, Eige
   return out;
 }
 
-std::vector<MatrixView<float>> views(const std::vector<FloatMatrix>& matrices) {
+std::vector<MatrixView<float>> views(const std::vector<Eigen::MatrixXf>& matrices) {
   std::vector<MatrixView<float>> out;
-  for (const FloatMatrix& m : matrices) out.push_back(view(m));
+  for (const Eigen::MatrixXf& m : matrices) out.push_back(view(m));
   return out;
 }
 
 /// Rows of H_0^{-1}, as parts, times G_0.
-std::vector<FloatMatrix> times(const std::vector<FloatMatrix>& rows, const LowRankFamily& g) {
-  std::vector<FloatMatrix> out;
+std::vector<Eigen::MatrixXf> times(const std::vector<Eigen::MatrixXf>& rows,
+                                   const MatrixFamily& g) {
+  std::vector<Eigen::MatrixXf> out;
   out.push_back(g.multiply_left(rows[0], 0));
   if (rows.size() == 1) return out;
   out[0] -= g.multiply_left(rows[1], 1);
@@ -161,9 +160,9 @@ std::vector<FloatMatrix> times(const std::vector<FloatMatrix>& rows, const LowRa
   return out;
 }
 
-double squared_norm(const std::vector<FloatMatrix>& matrices) {
+double squared_norm(const std::vector<Eigen::MatrixXf>& matrices) {
   double sum = 0;
-  for (const FloatMatrix& m : matrices) sum += m.cast<double>().squaredNorm();
+  for (const Eigen::MatrixXf& m : matrices) sum += m.cast<double>().squaredNorm();
   return sum;
 }
 
@@ -178,8 +177,8 @@ std::vector<int> sample_of(const std::vector<int>& nodes) {
 
 /// Rows of some nodes of H_0^{-1} G_0.
 template <class T>
-std::vector<FloatMatrix> response_rows(const DenseMatrix<T>& inverse, const LowRankFamily& g,
-                                       const std::vector<int>& nodes) {
+std::vector<Eigen::MatrixXf> response_rows(const DenseMatrix<T>& inverse, const MatrixFamily& g,
+                                           const std::vector<int>& nodes) {
   DenseMatrix<T> rows(static_cast<Eigen::Index>(3 * nodes.size()), inverse.cols());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     rows.middleRows(static_cast<Eigen::Index>(3 * i), 3) = inverse.middleRows(3 * nodes[i], 3);
@@ -189,7 +188,7 @@ std::vector<FloatMatrix> response_rows(const DenseMatrix<T>& inverse, const LowR
 /// How little pairs of neighbouring nodes yield to forces, in the mean over some of the `loaded`
 /// nodes (at least two): the least singular value of the response between them.
 template <class T>
-double pair_response(const BodyModel& model, const DenseMatrix<T>& inverse, const LowRankFamily& g,
+double pair_response(const BodyModel& model, const DenseMatrix<T>& inverse, const MatrixFamily& g,
                      const std::vector<int>& loaded) {
   const std::vector<Vec3>& x = model.geometry.nodes.vertices;
   const auto nearest = [&](int node) {
@@ -200,7 +199,7 @@ double pair_response(const BodyModel& model, const DenseMatrix<T>& inverse, cons
   };
   std::vector<int> nodes;
   for (int node : sample_of(loaded)) nodes.insert(nodes.end(), {node, nearest(node)});
-  const std::vector<FloatMatrix> response = response_rows(inverse, g, nodes);
+  const std::vector<Eigen::MatrixXf> response = response_rows(inverse, g, nodes);
   std::vector<double> pairs;
   for (std::size_t i = 0; i < nodes.size(); i += 2) {
     Eigen::MatrixXcd pair = Eigen::MatrixXcd::Zero(6, 6);
@@ -224,7 +223,7 @@ double pair_response(const BodyModel& model, const DenseMatrix<T>& inverse, cons
 /// both faces need it to stay positive.
 template <class T>
 double response_scale(const BodyModel& model, const DenseMatrix<T>& inverse,
-                      const LowRankFamily& g) {
+                      const MatrixFamily& g) {
   constexpr double kMostOfPairs = 100;
   std::vector<int> all(model.nodes());
   std::iota(all.begin(), all.end(), 0);
@@ -278,44 +277,45 @@ double most_error_of_inverse(const BodyModel& model) {
   constexpr double kKept = 0.02;
   if (!model.stiffness) return std::numeric_limits<double>::infinity();
   const auto n = static_cast<Eigen::Index>(model.stiffness->rows());
-  return kKept / (largest_eigenvalue(*model.stiffness) * LowRankBuilder::spectral_norm(1, n));
+  return kKept / (largest_eigenvalue(*model.stiffness) * spectral_norm_of_errors(1, n));
 }
 
 template <class T>
-void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, MatrixForm form,
-                       const LowRankFamily* g, double tolerance, const Progress& progress) {
+void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, MatrixForm form, const MatrixFamily* g,
+                       const CodecOptions& codec, const Progress& progress) {
   Lu<T> lu = factorise(std::move(h), progress);
   const std::optional<RigidPart<T>> rigid = rigid_part_of(model, lu);
   DenseMatrix<T> inverse = invert(model, std::move(lu), progress);
   if (rigid) rigid->remove_from_inverse(inverse);
-  const std::vector<Slab> partition = make_partition(model.geometry.nodes.vertices, {});
+  const std::vector<Slab> partition = codec.codec->slabs(model.geometry.nodes.vertices);
   const auto rows_of = [&](const Slab& slab) {
     return parts(inverse, 3 * slab.row_begin, 3 * (slab.row_end - slab.row_begin));
   };
   const auto builder = [&](MatrixForm of, double error, const auto& matrix_rows) {
-    std::vector<Slab> slabs = with_form(partition, of);
+    const std::vector<Slab> slabs = with_form(partition, of);
     const Slab& sample = typical_slab(slabs, of);
-    const std::vector<FloatMatrix> rows = matrix_rows(sample);
-    const double quantum =
-        LowRankBuilder::choose_quantum(sample, views(rows), error, model.stiffness != nullptr);
-    return LowRankBuilder(std::move(slabs), static_cast<int>(rows.size()), quantum, of);
+    const std::vector<Eigen::MatrixXf> rows = matrix_rows(sample);
+    return codec.codec->sampled_builder(
+        {slabs, of, sample, views(rows), error, model.stiffness != nullptr});
   };
-  LowRankBuilder inverse_builder = builder(
-      form, std::min(tolerance * inverse_scale(inverse), most_error_of_inverse(model)), rows_of);
-  std::optional<LowRankBuilder> response_builder;
+  const auto inverse_builder = builder(
+      form, std::min(codec.tolerance * inverse_scale(inverse), most_error_of_inverse(model)),
+      rows_of);
+  std::unique_ptr<FamilyBuilder<float>> response_builder;
   if (g)
-    response_builder = builder(MatrixForm::general, tolerance * response_scale(model, inverse, *g),
-                               [&](const Slab& slab) { return times(rows_of(slab), *g); });
+    response_builder =
+        builder(MatrixForm::general, codec.tolerance * response_scale(model, inverse, *g),
+                [&](const Slab& slab) { return times(rows_of(slab), *g); });
   for (const Slab& slab : partition) {
     if (progress)
       progress("compressing the inverse", 3 * slab.row_begin / static_cast<double>(inverse.rows()));
-    const std::vector<FloatMatrix> rows = rows_of(slab);
-    inverse_builder.add_rows(views(rows));
+    const std::vector<Eigen::MatrixXf> rows = rows_of(slab);
+    inverse_builder->add_rows(views(rows));
     if (g) response_builder->add_rows(views(times(rows, *g)));
   }
   ModelReport::CodecErrors& errors = model.report.codec_errors;
-  model.inverse.push_back(inverse_builder.finish());
-  errors.inverse = std::max(errors.inverse, inverse_builder.error());
+  model.inverse.push_back(inverse_builder->finish());
+  errors.inverse = std::max(errors.inverse, inverse_builder->error());
   if (!g) return;
   model.traction_response.push_back(response_builder->finish());
   errors.traction_response = std::max(errors.traction_response, response_builder->error());
@@ -371,12 +371,12 @@ void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const C
     invert_dense(model, std::move(h.real), g ? &g->real : nullptr, codec, progress);
 }
 
-void invert_compressed(BodyModel& model, InitialMatrix&& h, const LowRankFamily* g,
-                       double tolerance, const Progress& progress) {
+void invert_compressed(BodyModel& model, InitialMatrix&& h, const MatrixFamily* g,
+                       const CodecOptions& codec, const Progress& progress) {
   if (h.paired)
-    invert_compressed(model, std::move(h.complex), h.form, g, tolerance, progress);
+    invert_compressed(model, std::move(h.complex), h.form, g, codec, progress);
   else
-    invert_compressed(model, std::move(h.real), h.form, g, tolerance, progress);
+    invert_compressed(model, std::move(h.real), h.form, g, codec, progress);
 }
 
 }  // namespace bem

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "compress/codec.hpp"
-#include "compress/low_rank_family.hpp"
 #include "model/slab_assembly.hpp"
 
 #include <functional>
@@ -30,16 +29,15 @@ struct InitialMatrix {
   void add(const MatrixFamily& family);
 };
 
-/// Adds H_0^{-1} and, from the uncompressed G_0, H_0^{-1} G_0 of a component to the model, in the
-/// precision of the model or by a codec that make_direct_builder() knows; `g` may be null. Notes
-/// the condition number and the codec's errors. In the inertial form both are without the rigid
-/// motions that forces cause.
+/// Adds H_0^{-1} and, from the uncompressed G_0, H_0^{-1} G_0 of a component to the model, by a
+/// codec that is not sampled; `g` may be null. Notes the condition number and the codec's errors.
+/// In the inertial form both are without the rigid motions that forces cause.
 void invert_dense(BodyModel& model, InitialMatrix&& h, InitialMatrix* g, const CodecOptions& codec,
                   const Progress& progress);
 
-/// The same with codec lowrank, and with `g` compressed, too: H_0^{-1} is multiplied by it slab by
-/// slab.
-void invert_compressed(BodyModel& model, InitialMatrix&& h, const LowRankFamily* g,
-                       double tolerance, const Progress& progress);
+/// The same with a sampled codec, and with `g` compressed, too: H_0^{-1} is multiplied by it slab
+/// by slab.
+void invert_compressed(BodyModel& model, InitialMatrix&& h, const MatrixFamily* g,
+                       const CodecOptions& codec, const Progress& progress);
 
 }  // namespace bem

@@ -178,10 +178,9 @@ class IterativeSolver : public InitialSolver {
 template <class T, class Single>
 std::unique_ptr<InitialSolver> iterative_solver(const BodyModel& model, const MatrixFamily& h) {
   const int nodes = static_cast<int>(model.nodes());
-  if (model.codec == Codec::none && model.precision == Precision::float64)
-    return std::make_unique<IterativeSolver<T, T>>(h, nodes, 1e-13);
-  return std::make_unique<IterativeSolver<T, Single>>(h, nodes,
-                                                      model.codec == Codec::none ? 1e-7 : 1e-6);
+  const double tolerance = model.codec->rounding();
+  if (model.codec->is_double()) return std::make_unique<IterativeSolver<T, T>>(h, nodes, tolerance);
+  return std::make_unique<IterativeSolver<T, Single>>(h, nodes, tolerance);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "model/memory_estimate.hpp"
 
 #include "base/parallel.hpp"
-#include "compress/block_partition.hpp"
 #include "model/galerkin_slabs.hpp"
 #include "model/model_assembly.hpp"
 
@@ -57,7 +56,7 @@ double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o,
   const Counts c = counts_of(o);
   const double n = 3.0 * static_cast<double>(g.nodes.vertices.size());
   double slab_rows = 0, widest = 0;
-  for (const Slab& s : make_partition(g.nodes.vertices, {})) {
+  for (const Slab& s : o.codec.codec->slabs(g.nodes.vertices)) {
     slab_rows = std::max(slab_rows, 3.0 * (s.row_end - s.row_begin));
     for (const NodeBlock& b : s.blocks) widest = std::max(widest, 9.0 * b.rows() * b.columns());
   }
@@ -75,15 +74,13 @@ double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o,
 StoredEstimate estimate_stored(const BodyGeometry& g, const PrecomputeOptions& o) {
   if (o.kind == ModelKind::rigid) return {};
   StoredEstimate out;
-  if (o.codec.codec == Codec::lowrank) {
+  if (o.codec.codec->is_sampled()) {
     out = sample_compression(g, o);
   } else {
-    constexpr double kWithIndices = 1.5;  // a number of codec haar and its place
     const Counts c = counts_of(o);
     const bool inertial = c.lags > 0 && o.discretisation.method == SpatialMethod::galerkin;
-    out.bytes = square(g) * static_cast<double>(bytes_per_entry(o.precision)) *
-                (c.kinds * (c.lags + c.parts) + (inertial ? 1 : 0));
-    if (o.codec.ratio > 0) out.bytes *= std::min(1.0, kWithIndices / o.codec.ratio);
+    out.bytes = o.codec.codec->expected_bytes(
+        square(g) * (c.kinds * (c.lags + c.parts) + (inertial ? 1 : 0)), o.codec);
   }
   out.bytes += small_bytes(g, o);
   out.assembly_bytes += small_bytes(g, o);
@@ -92,9 +89,9 @@ StoredEstimate estimate_stored(const BodyGeometry& g, const PrecomputeOptions& o
 
 double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, const StoredEstimate& stored) {
   if (o.kind == ModelKind::rigid) return 0;
-  if (o.codec.codec == Codec::lowrank) return compressed_peak(g, o, stored);
+  if (o.codec.codec->is_sampled()) return compressed_peak(g, o, stored);
   const Counts c = counts_of(o);
-  const double entry = static_cast<double>(bytes_per_entry(o.precision));
+  const double entry = o.codec.codec->is_double() ? sizeof(double) : sizeof(float);
   // lag 0 is double while it is factorised; the stored copies replace it one by one
   const double lags = square(g) * entry * c.kinds * c.lags;
   const double initial = o.inverse == InverseKind::dense ? initial_bytes(g, o) * c.kinds : 0;

@@ -2,8 +2,7 @@
 
 #include "assembly/mesh_coarseness.hpp"
 #include "base/parallel.hpp"
-#include "compress/direct_builder.hpp"
-#include "compress/low_rank_builder.hpp"
+#include "compress/codec.hpp"
 #include "model/initial_inverse.hpp"
 #include "model/rigid_projection.hpp"
 
@@ -206,9 +205,9 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
   const bool tractions = options.loads != Loads::none;
   const auto assembler = make_slab_assembler<T>(model, assembly_precision(options), true);
   Targets<T> targets;
-  const auto builder = [&](int count) { return make_direct_builder<T>(options.codec, n, count); };
+  const auto builder = [&](int count) { return make_builder<T>(options.codec, n, count); };
   if (assembler->is_inertial())
-    targets.stiffness = make_direct_builder<T>(stiffness_codec(options.codec), n, 1);
+    targets.stiffness = make_builder<T>(stiffness_codec(options.codec), n, 1);
   if (model.has_history()) targets.h = builder(assembler->lag_count());
   if (model.has_history() && tractions) targets.g = builder(assembler->lag_count());
   if (options.inverse == InverseKind::dense) {
@@ -220,7 +219,8 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
       if (tractions) targets.initial_g.push_back(builder(parts));
     });
   }
-  assemble_all(*assembler, model, direct_slabs(options.codec, n), targets, progress);
+  assemble_all(*assembler, model, options.codec.codec->slabs(model.geometry.nodes.vertices),
+               targets, progress);
   take_families(targets, model);
   make_regular(model, targets.dense_h);
   for (std::size_t i = 0; i < targets.dense_h.size(); ++i)
@@ -232,12 +232,13 @@ void assemble_directly(BodyModel& model, const PrecomputeOptions& options,
 class CompressedBuilders {
  public:
   CompressedBuilders(SlabAssembler<float>& assembler, const std::vector<Slab>& slabs,
-                     double tolerance)
+                     const CodecOptions& codec)
       : slabs_(slabs),
         of_h_(with_form(slabs, assembler.form())),
         form_(assembler.form()),
         inertial_(assembler.is_inertial()),
-        tolerance_(tolerance) {
+        codec_(*codec.codec),
+        tolerance_(codec.tolerance) {
     const Slab& typical = typical_slab(slabs_, form_);
     assembler.assemble(typical.row_begin, typical.row_end, sample_);
     norms_ = assembler.estimate_norms();
@@ -253,30 +254,30 @@ class CompressedBuilders {
   /// The sample, which the builders that have been made need no more.
   MatrixSlab<float> take_sample() { return std::move(sample_); }
 
-  std::unique_ptr<LowRankBuilder> h() const {
+  std::unique_ptr<FamilyBuilder<float>> h() const {
     return builder(sample_.h, norms_.h, tolerance_, form_);
   }
-  std::unique_ptr<LowRankBuilder> g() const {
+  std::unique_ptr<FamilyBuilder<float>> g() const {
     return builder(sample_.g, norms_.g, tolerance_, MatrixForm::general);
   }
   /// `least`: eigenvalue of the softest motion that is not rigid [N/m].
-  std::unique_ptr<LowRankBuilder> stiffness(double tolerance, double least) const {
+  std::unique_ptr<FamilyBuilder<float>> stiffness(double tolerance, double least) const {
     constexpr double kKept = 0.003, kSmallest = 1e-9;
-    const double spectral =
-        LowRankBuilder::spectral_norm(norms_.stiffness, sample_.stiffness.cols());
+    const double spectral = spectral_norm_of_errors(norms_.stiffness, sample_.stiffness.cols());
     return builder({sample_.stiffness.cast<float>()}, norms_.stiffness,
                    std::clamp(kKept * least / spectral, kSmallest, tolerance), form_);
   }
   /// Of parts of H_0. In the inertial form the errors are relative to the inertia in it, and not to
   /// the stiffness, of which soft motions feel but a small part.
-  std::unique_ptr<LowRankBuilder> initial_h(int first, int count) const {
+  std::unique_ptr<FamilyBuilder<float>> initial_h(int first, int count) const {
     constexpr double kOfInertia = 0.1;
     return builder(parts(sample_.initial_h, first, count),
                    inertial_ ? kOfInertia * norms_.initial_inertia : norms_.initial_h, tolerance_,
                    form_);
   }
   /// Of parts of G_0. `part_of_tolerance`: less than one for what is an ingredient only.
-  std::unique_ptr<LowRankBuilder> initial_g(int first, int count, double part_of_tolerance) const {
+  std::unique_ptr<FamilyBuilder<float>> initial_g(int first, int count,
+                                                  double part_of_tolerance) const {
     return builder(parts(sample_.initial_g, first, count), norms_.initial_g,
                    part_of_tolerance * tolerance_, MatrixForm::general);
   }
@@ -288,20 +289,19 @@ class CompressedBuilders {
     for (int i = first; i < first + count; ++i) out.emplace_back(from[i].cast<float>());
     return out;
   }
-  std::unique_ptr<LowRankBuilder> builder(const std::vector<Eigen::MatrixXf>& sample, double norm,
-                                          double tolerance, MatrixForm form) const {
+  std::unique_ptr<FamilyBuilder<float>> builder(const std::vector<Eigen::MatrixXf>& sample,
+                                                double norm, double tolerance,
+                                                MatrixForm form) const {
     const std::vector<Slab>& slabs = form == MatrixForm::symmetric ? of_h_ : slabs_;
-    return std::make_unique<LowRankBuilder>(
-        slabs, static_cast<int>(sample.size()),
-        LowRankBuilder::choose_quantum(typical_slab(slabs, form_), views(sample), tolerance * norm,
-                                       inertial_),
-        form);
+    return codec_.sampled_builder(
+        {slabs, form, typical_slab(slabs, form_), views(sample), tolerance * norm, inertial_});
   }
 
   const std::vector<Slab>& slabs_;
   std::vector<Slab> of_h_;
   MatrixForm form_;
   bool inertial_;  ///< if not, archives stay as they have always been
+  const Codec& codec_;
   double tolerance_;
   double g_part_ = 1;
   SlabAssembler<float>::Norms norms_;
@@ -321,7 +321,7 @@ Targets<float> compressed_targets(SlabAssembler<float>& assembler, const std::ve
   constexpr std::size_t kFew = 8;        // slabs, of which one more in memory is worth its time
   const bool tractions = options.loads != Loads::none;
   const bool iterative = options.inverse == InverseKind::iterative;
-  CompressedBuilders builders(assembler, slabs, options.codec.tolerance);
+  CompressedBuilders builders(assembler, slabs, options.codec);
   Targets<float> targets;
   if (model.has_history()) targets.h = builders.h();
   if (model.has_history() && tractions) targets.g = builders.g();
@@ -348,7 +348,7 @@ void assemble_compressed(BodyModel& model, const PrecomputeOptions& given,
   options.codec = codec_of_body(model.geometry, options.discretisation.method, given.codec);
   const auto assembler = make_slab_assembler<float>(model, assembly_precision(options), false);
   if (progress) progress("assembly", 0);
-  const std::vector<Slab> slabs = make_partition(model.geometry.nodes.vertices, {});
+  const std::vector<Slab> slabs = options.codec.codec->slabs(model.geometry.nodes.vertices);
   Targets<float> targets = compressed_targets(*assembler, slabs, model, options);
   assemble_all(*assembler, model, slabs, targets, progress);
   take_families(targets, model);
@@ -362,10 +362,8 @@ void assemble_compressed(BodyModel& model, const PrecomputeOptions& given,
   model.initial_g.clear();
   model.report.codec_errors.initial_g = 0;  // not in the model
   for (std::size_t i = 0; i < targets.dense_h.size(); ++i)
-    invert_compressed(
-        model, std::move(targets.dense_h[i]),
-        initial_g.empty() ? nullptr : dynamic_cast<const LowRankFamily*>(initial_g[i].get()),
-        options.codec.tolerance, progress);
+    invert_compressed(model, std::move(targets.dense_h[i]),
+                      initial_g.empty() ? nullptr : initial_g[i].get(), options.codec, progress);
 }
 
 /// A model whose rows may be assembled.
@@ -381,18 +379,18 @@ BodyModel empty_model(const BodyGeometry& geometry, const PrecomputeOptions& opt
 }  // namespace
 
 void assemble_model(BodyModel& model, const PrecomputeOptions& options, const Progress& progress) {
-  if (options.codec.codec == Codec::lowrank)
+  const Codec& codec = *options.codec.codec;
+  if (codec.is_sampled())
     assemble_compressed(model, options, progress);
-  else if (options.precision == Precision::float32)
-    assemble_directly<float>(model, options, progress);
-  else
+  else if (codec.is_double())
     assemble_directly<double>(model, options, progress);
+  else
+    assemble_directly<float>(model, options, progress);
 }
 
 AssemblyPrecision assembly_precision(const PrecomputeOptions& options) {
   const bool single =
-      (options.codec.codec != Codec::none || options.precision == Precision::float32) &&
-      options.discretisation.quadrature_tolerance >= 1e-6;
+      !options.codec.codec->is_double() && options.discretisation.quadrature_tolerance >= 1e-6;
   return single ? AssemblyPrecision::single : AssemblyPrecision::full;
 }
 
@@ -423,7 +421,7 @@ StoredEstimate sample_compression(const BodyGeometry& geometry, const Precompute
   PrecomputeOptions iterative = options;
   iterative.codec = codec_of_body(geometry, options.discretisation.method, options.codec);
   iterative.inverse = InverseKind::iterative;  // H_0 and G_0 are compressed
-  const std::vector<Slab> all = make_partition(geometry.nodes.vertices, {});
+  const std::vector<Slab> all = options.codec.codec->slabs(geometry.nodes.vertices);
   const std::size_t samples = std::min(kSamples, all.size());
   std::vector<Slab> slabs;
   double rows = 0;

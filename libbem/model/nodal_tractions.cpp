@@ -1,32 +1,11 @@
 #include "model/nodal_tractions.hpp"
 
 #include "base/error.hpp"
-#include "compress/dense_family.hpp"
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 
 namespace bem {
-namespace {
-
-/// Some columns of an uncompressed family, in the precision of the model.
-template <class T>
-std::shared_ptr<const MatrixFamily> pick_columns(const MatrixFamily& family,
-                                                 const std::vector<int>& columns) {
-  std::vector<int> rows(family.rows());
-  std::iota(rows.begin(), rows.end(), 0);
-  auto out = std::make_shared<ColumnFamily<T>>(family.rows(), columns, family.count());
-  for (int k = 0; k < family.count(); ++k) {
-    const Eigen::MatrixXd entries = family.block(k, rows, columns);
-    std::transform(entries.data(), entries.data() + entries.size(), out->matrix(k).column(0),
-                   [](double x) { return static_cast<T>(x); });
-  }
-  return out;
-}
-
-}  // namespace
-
 std::vector<int> unknowns_of(const std::vector<int>& nodes) {
   std::vector<int> unknowns;
   unknowns.reserve(3 * nodes.size());
@@ -40,10 +19,7 @@ TractionData extract_tractions(const BodyModel& model, const std::vector<int>& n
   require(model.loads != Loads::none && !initial.empty(), "traction matrices are in memory");
   const std::vector<int> columns = unknowns_of(nodes);
   const auto pick = [&](const MatrixFamily& family) -> std::shared_ptr<const MatrixFamily> {
-    if (dynamic_cast<const DenseFamily<float>*>(&family))
-      return pick_columns<float>(family, columns);
-    if (dynamic_cast<const DenseFamily<double>*>(&family))
-      return pick_columns<double>(family, columns);
+    if (auto smaller = family.pick_columns(columns)) return smaller;
     return {std::shared_ptr<const void>(), &family};
   };
   TractionData data;

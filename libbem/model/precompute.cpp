@@ -66,7 +66,6 @@ BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
   model.geometry = std::move(geometry);
   model.discretisation = options.discretisation;
   if (options.kind == ModelKind::rigid) return model;
-  model.precision = options.precision;
   model.codec = options.codec.codec;
   if (model.kind == ModelKind::dynamic)
     model.report.lam =

@@ -12,11 +12,10 @@ struct PrecomputeOptions {
   /// quasistatic_time_step(), dense inverse.
   ModelKind kind = ModelKind::dynamic;
   Discretisation discretisation;
-  Precision precision = Precision::float32;  ///< of uncompressed matrices
   CodecOptions codec;
   InverseKind inverse = InverseKind::dense;
   Loads loads = Loads::all;       ///< what is kept of G and H_0^{-1} G_0
-  std::vector<int> loaded_nodes;  ///< of Loads::some, ascending; needs a codec
+  std::vector<int> loaded_nodes;  ///< of Loads::some, ascending; needs a sampled codec
   double window = 0;              ///< 0: the weakest that keeps the measured growth at or below 1
   bool measure_growth = true;
 };

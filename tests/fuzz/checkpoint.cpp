@@ -13,8 +13,8 @@ namespace {
 bem_test::MemorySource& source(bool iterative) {
   static bem_test::MemorySource sources[2];
   static const bool made = [] {
-    sources[0].add("b", small_model("radau2", bem::Codec::lowrank));
-    sources[1].add("b", small_model("bdf2", bem::Codec::none, bem::InverseKind::iterative));
+    sources[0].add("b", small_model("radau2", "lowrank"));
+    sources[1].add("b", small_model("bdf2", "none", bem::InverseKind::iterative));
     return true;
   }();
   static_cast<void>(made);

@@ -18,7 +18,7 @@ inline bem::BodyGeometry small_body() {
 }
 
 /// A model of it with a short history.
-inline bem::BodyModel small_model(const std::string& scheme, bem::Codec codec,
+inline bem::BodyModel small_model(const std::string& scheme, const std::string& codec,
                                   bem::InverseKind inverse = bem::InverseKind::dense,
                                   bem::ModelKind kind = bem::ModelKind::dynamic) {
   const bem::BodyGeometry geometry = small_body();
@@ -29,8 +29,7 @@ inline bem::BodyModel small_model(const std::string& scheme, bem::Codec codec,
   options.kind = kind;
   if (kind == bem::ModelKind::dynamic) options.discretisation.dt = 0.01;
   if (kind == bem::ModelKind::dynamic) options.discretisation.history_length = 2;
-  options.precision = bem::Precision::float32;
-  options.codec.codec = codec;
+  options.codec = bem::CodecOptions(bem::codec_named(codec));
   options.inverse = inverse;
   options.window = 0.99;
   return bem::precompute(geometry, options);

@@ -22,16 +22,14 @@ inline bem::BodyGeometry small_body() {
 
 /// A complete model that takes a fraction of a second to compute.
 inline bem::BodyModel small_model(const std::string& scheme = "radau2",
-                                  bem::Precision precision = bem::Precision::float32,
-                                  bem::Codec codec = bem::Codec::none) {
+                                  const bem::CodecOptions& codec = {}) {
   bem::PrecomputeOptions options;
   options.discretisation.material = material(1000, 1e5, 0.3);
   options.discretisation.material.time_step = 0.01;
   options.discretisation.scheme = bem::Scheme::parse(scheme);
   options.discretisation.dt = 0.01;
   options.discretisation.history_length = 4;
-  options.precision = precision;
-  options.codec.codec = codec;
+  options.codec = codec;
   options.window = 0.99;
   options.measure_growth = false;
   return bem::precompute(small_body(), options);

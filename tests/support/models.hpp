@@ -14,7 +14,7 @@ inline bem::PrecomputeOptions options_for(const bem::BodyGeometry& geometry,
   o.discretisation.scheme = bem::Scheme::parse(scheme);
   o.discretisation.dt = geometry.extent / (lam * material.shear_speed());
   o.discretisation.history_length = bem::default_history_length(o.discretisation.scheme, lam);
-  o.precision = bem::Precision::float64;
+  o.codec = bem::CodecOptions(bem::codec_named("none", bem::Precision::float64));
   o.window = 1;
   o.measure_growth = false;
   return o;

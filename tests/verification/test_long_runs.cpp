@@ -42,10 +42,10 @@ LongRun run(const Setup& s, int steps) {
   const Material m = material(1000, 1e6, s.nu);
   const BodyGeometry g = geometry_of(s.mesh, m.density);
   PrecomputeOptions o = options_for(g, m, "radau2", s.lam);
-  o.precision = Precision::float32;
+  o.codec = CodecOptions();
   o.window = s.window;
   o.measure_growth = true;
-  if (s.tolerance > 0) o.codec = {Codec::lowrank, s.tolerance};
+  if (s.tolerance > 0) o.codec = CodecOptions(codec_named("lowrank"), s.tolerance);
   BodyModel model = precompute(g, o);
   LongRun out;
   out.growth = model.report.growth;

@@ -27,7 +27,7 @@ Case make_case(const TriangleMesh& mesh, const Material& m, const char* scheme, 
   Case c;
   c.geometry = geometry_of(mesh, m.density);
   PrecomputeOptions o = options_for(c.geometry, m, scheme, lam);
-  if (tolerance > 0) o.codec = {Codec::lowrank, tolerance};
+  if (tolerance > 0) o.codec = CodecOptions(codec_named("lowrank"), tolerance);
   c.source.add("b", precompute(c.geometry, o));
   c.scene = one_body_scene(o.discretisation.dt);
   return c;

@@ -75,7 +75,7 @@ double sphere_error(const char* scheme, const Sphere& s, int subdivisions, int s
   const double dt = end / steps;
   MemorySource source;
   PrecomputeOptions o = options_for(g, m, scheme, g.extent / (m.shear_speed() * dt));
-  if (subdivisions > 2) o.precision = Precision::float32;  // 7 GB instead of 13
+  if (subdivisions > 2) o.codec = CodecOptions();  // 7 GB instead of 13
   source.add("b", precompute(g, o));
   Scene scene = one_body_scene(o.discretisation.dt);
   TractionSpec load;

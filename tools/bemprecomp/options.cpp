@@ -31,6 +31,7 @@ struct Typed {
   std::string window = "auto", model = "dynamic", codec = "lowrank", corner_angle = "auto",
               precision = "float32", inverse = "auto", damping = "off";
   std::optional<double> codec_tolerance, compression_ratio;
+  bool precision_given = false;
 };
 
 void add_matrix_options(CLI::App& app, Typed& t) {
@@ -135,11 +136,17 @@ double positive(const std::string& option, double value) {
   refuse(option + " must be a positive number, not " + to_text(value));
 }
 
+/// The value of this name.
+template <class T>
+T parse_choice(const std::string& option, const std::string& text) {
+  if (const std::optional<T> value = find_choice<T>(text)) return *value;
+  refuse(option + " is " + choice_list<T>() + ", not \"" + text + "\"");
+}
+
 std::optional<InverseKind> parse_inverse(const std::string& text) {
   if (text == "auto") return std::nullopt;
-  if (text == "dense") return InverseKind::dense;
-  if (text == "iterative") return InverseKind::iterative;
-  refuse("--inverse is dense, iterative or auto, not \"" + text + "\"");
+  if (const auto kind = find_choice<InverseKind>(text)) return kind;
+  refuse("--inverse is auto, " + choice_list<InverseKind>() + ", not \"" + text + "\"");
 }
 
 /// The number that the text is, if it is one and nothing else.
@@ -180,24 +187,26 @@ Damping parse_damping(const std::string& text) {
   refuse("--damping is off or kelvin_voigt:T with a time T > 0 [s], not \"" + text + "\"");
 }
 
-/// Refuses unknown names, and options that do not belong together.
-void check_names(const Typed& t) {
-  if (t.model != "dynamic" && t.model != "static" && t.model != "rigid")
-    refuse("--model is dynamic, static or rigid, not \"" + t.model + "\"");
-  if (t.codec != "none" && t.codec != "haar" && t.codec != "lowrank")
-    refuse("--codec is none, haar or lowrank, not \"" + t.codec + "\"");
-  if (t.codec_tolerance && t.codec == "none")
-    refuse("--codec-tol belongs to --codec lowrank and haar");
-  if (t.compression_ratio && t.codec != "haar")
-    refuse("--compression-ratio belongs to --codec haar");
+/// Refuses options that do not belong together.
+CodecOptions parse_codec(const Typed& t) {
+  const Codec* codec = find_codec(t.codec, parse_choice<Precision>("--precision", t.precision));
+  if (!codec) refuse("--codec is " + list_text(codec_names()) + ", not \"" + t.codec + "\"");
+  if (t.codec_tolerance && codec->is_lossless())
+    refuse("--codec-tol belongs to " + codec_options_with(is_lossy));
+  if (t.compression_ratio && !codec->takes_ratio())
+    refuse("--compression-ratio belongs to " + codec_options_with(takes_ratio));
   if (t.compression_ratio && t.codec_tolerance)
     refuse("use either --compression-ratio or --codec-tol");
-  if (t.codec != "none" && t.precision != "float32")
+  if (!codec->is_lossless() && t.precision_given)
     refuse("--precision belongs to --codec none; use --codec-tol with --codec " + t.codec);
-  if (t.precision != "float32" && t.precision != "float64")
-    refuse("--precision is float32 or float64, not \"" + t.precision + "\"");
-  if (t.codec != "lowrank" && t.options.loads != "all" && t.options.loads != "none")
+  if (!codec->is_sampled() && t.options.loads != "all" && t.options.loads != "none")
     refuse("--loads with a file needs --codec lowrank");
+  CodecOptions options(*codec);
+  if (t.codec_tolerance)
+    options.tolerance = number_in("--codec-tol", *t.codec_tolerance, 1e-6, 0.1);
+  if (t.compression_ratio)
+    options.ratio = number_in("--compression-ratio", *t.compression_ratio, 1, 1e4);
+  return options;
 }
 
 /// Refuses what a model without history does not have.
@@ -255,25 +264,16 @@ Options checked(const CLI::App& app, Typed& t) {
     o.action = Options::Action::diff;
     o.archives = t.diff;
   } else {
-    check_names(t);
-    o.model = t.model == "rigid"    ? ModelKind::rigid
-              : t.model == "static" ? ModelKind::quasistatic
-                                    : ModelKind::dynamic;
+    o.model = parse_choice<ModelKind>("--model", t.model);
+    t.precision_given = given("--precision") > 0;
+    o.codec = parse_codec(t);
     if (o.scheme.empty()) o.scheme = o.model == ModelKind::quasistatic ? "bdf1" : "radau2";
     o.method_given = given("--discretisation") > 0;
     o.corners_given = t.corner_angle != "auto";
     o.corner_angle_deg = parse_corner_angle(t.corner_angle, o.method);
     o.damping = parse_damping(t.damping);
     o.window = parse_window(t.window);
-    o.precision = t.precision == "float32" ? Precision::float32 : Precision::float64;
     o.inverse = parse_inverse(t.inverse);
-    o.codec.codec = t.codec == "none"   ? Codec::none
-                    : t.codec == "haar" ? Codec::haar
-                                        : Codec::lowrank;
-    if (t.codec_tolerance) o.codec.tolerance = *t.codec_tolerance;
-    number_in("--codec-tol", o.codec.tolerance, 1e-6, 0.1);
-    if (t.compression_ratio)
-      o.codec.ratio = number_in("--compression-ratio", *t.compression_ratio, 1, 1e4);
     check_inputs(o);
   }
   check_distinct_files(o);
@@ -291,17 +291,10 @@ std::string Options::canonical_text() const {
   if (history) text += " --history " + std::to_string(*history);
   if (history_tolerance) text += " --history-tol " + to_text(*history_tolerance);
   text += " --quadrature-tol " + to_text(quadrature_tolerance);
-  text += dynamic ? " --model dynamic" : " --model static";
-  text += " --codec " + std::string(codec_name(codec.codec));
-  if (codec.codec == Codec::none)
-    text +=
-        std::string(" --precision ") + (precision == Precision::float32 ? "float32" : "float64");
-  else if (codec.ratio > 0)
-    text += " --compression-ratio " + to_text(codec.ratio);
-  else
-    text += " --codec-tol " + to_text(codec.tolerance);
+  text += " --model " + choice_name(model);
+  text += " " + codec.codec->options_text(codec);
   if (damping.time > 0) text += " --damping kelvin_voigt:" + to_text(damping.time);
-  if (inverse) text += *inverse == InverseKind::dense ? " --inverse dense" : " --inverse iterative";
+  if (inverse) text += " --inverse " + choice_name(*inverse);
   if (loads != "all") text += " --loads " + loads;
   return text + " --corner-angle-deg " + (corner_angle_deg ? to_text(*corner_angle_deg) : "none");
 }

@@ -26,7 +26,6 @@ struct Options {
   std::optional<double> history_tolerance;
   std::optional<int> history;
   double quadrature_tolerance = 1e-6;
-  Precision precision = Precision::float32;  ///< of codec none
   CodecOptions codec;
   std::optional<double> corner_angle_deg;
   Damping damping;

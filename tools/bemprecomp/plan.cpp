@@ -74,7 +74,6 @@ std::vector<int> read_loaded_nodes(const std::string& path, const BodyGeometry& 
 void plan_storage(const Options& o, Plan& plan) {
   constexpr std::size_t kMostDense = 8000;  // nodes
   PrecomputeOptions& p = plan.options;
-  p.precision = o.precision;
   p.codec = o.codec;
   const bool large = plan.geometry.nodes.vertices.size() > kMostDense &&
                      o.model == ModelKind::dynamic;  // others need the inverse
@@ -109,7 +108,7 @@ StoredEstimate estimate_compression(Plan& plan) {
     return estimate_stored(plan.geometry, plan.options);
   plan.uncompressed = true;
   PrecomputeOptions none = plan.options;
-  none.codec.codec = Codec::none;
+  none.codec = CodecOptions();
   StoredEstimate out = estimate_stored(plan.geometry, none);
   out.assembly_bytes = out.bytes;
   out.assembly_seconds = kWithCompression * row * nodes;
@@ -118,7 +117,7 @@ StoredEstimate estimate_compression(Plan& plan) {
 
 void estimate_bytes(bool sample, Plan& plan) {
   StoredEstimate stored;
-  const bool compressed = plan.options.codec.codec == Codec::lowrank;
+  const bool compressed = plan.options.codec.codec->is_sampled();
   if (!compressed || sample) {
     stored = compressed ? estimate_compression(plan) : estimate_stored(plan.geometry, plan.options);
     plan.stored = stored.bytes;
@@ -241,7 +240,7 @@ TimeEstimate estimate_time(const Plan& plan) {
   constexpr double kGrowthSteps = 150, kWriteSpeed = 1e9;
   const Discretisation& d = plan.options.discretisation;
   const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());
-  const bool compressed = plan.options.codec.codec == Codec::lowrank;
+  const bool compressed = plan.options.codec.codec->is_sampled();
   const bool dense = plan.options.inverse == InverseKind::dense;
   TimeEstimate t;
   t.assembly = compressed ? plan.compression_seconds : nodes * seconds_of_some_rows(plan);

@@ -16,10 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* precision_name(Precision p) {
-  return p == Precision::float32 ? "float32" : "float64";
-}
-
 Json material_json(const Material& m) {
   Json json = {{"name", m.name},
                {"density", m.density},
@@ -27,6 +23,11 @@ Json material_json(const Material& m) {
                {"poisson_ratio", m.poisson_ratio}};
   if (m.time_step) json["time_step"] = *m.time_step;
   return json;
+}
+
+void add_codec(Json& json, const Codec& codec) {
+  json["codec"] = codec.name();
+  if (codec.is_lossless()) json["precision"] = choice_name(*codec.precision());
 }
 
 Json body_json(const BodyGeometry& g, ModelKind kind) {
@@ -147,7 +148,7 @@ Json info_json(const Archive& archive) {
   Json json = {{"format_version", archive.user_block().version},
                {"bytes", archive.user_block().payload + kUserBlock},
                {"digest", archive.user_block().digest},
-               {"model", model_name(archive.kind())},
+               {"model", choice_name(archive.kind())},
                {"mesh",
                 {{"vertices", archive.geometry().input.vertices.size()},
                  {"faces", archive.geometry().input.triangles.size()}}},
@@ -160,13 +161,12 @@ Json info_json(const Archive& archive) {
                  {"mesh_scale", p.mesh_scale},
                  {"options", p.options}}}};
   if (archive.kind() == ModelKind::rigid) return json;
-  json["codec"] = codec_name(archive.codec());
-  if (archive.codec() == Codec::none) json["precision"] = precision_name(archive.precision());
+  add_codec(json, archive.codec());
   json["scheme"] = scheme_json(archive.discretisation(), archive.window());
   json["matrices"] = {{"unknowns", archive.unknowns()},
                       {"count", archive.matrix_paths().size()},
-                      {"inverse", inverse_name(archive.is_iterative())},
-                      {"loads", loads_name(archive.loads())}};
+                      {"inverse", choice_name(archive.inverse_kind())},
+                      {"loads", choice_name(archive.loads())}};
   if (archive.loads() == Loads::some)
     json["matrices"]["loaded_nodes"] = archive.loaded_nodes().size();
   json["report"] = report_json(archive.report());
@@ -212,14 +212,14 @@ void print_matrices(Table& table, const Archive& archive) {
   if (d.damping.time > 0)
     table.line("damping", "Kelvin-Voigt, retardation time ", d.damping.time, " s");
   table.line("matrices", archive.matrix_paths().size(), " of ", archive.unknowns(), " x ",
-             archive.unknowns(), ", codec ", codec_name(archive.codec()),
-             archive.codec() == Codec::none
-                 ? std::string(", ") + precision_name(archive.precision())
+             archive.unknowns(), ", codec ", archive.codec().name(),
+             archive.codec().is_lossless()
+                 ? std::string(", ") + choice_name(*archive.codec().precision())
                  : "");
   print_storage(table, archive);
   table.line("quadrature", "tolerance ", d.quadrature_tolerance, ", row sums repaired by ",
              r.row_sum_residual, ", rotation residual ", r.rotation_residual);
-  if (archive.codec() != Codec::none) print_codec_errors(table, archive);
+  if (!archive.codec().is_lossless()) print_codec_errors(table, archive);
   if (dynamic && r.growth > 0)
     table.line("stability", "growth factor per step ", r.growth * archive.window(), " (", r.growth,
                " without window)");
@@ -234,7 +234,7 @@ void print_info(std::ostream& out, const Archive& archive) {
   table.line("archive", archive.path(), ", ",
              bytes_text(static_cast<double>(archive.user_block().payload + kUserBlock)),
              ", format version ", archive.user_block().version);
-  table.line("model", model_name(archive.kind()));
+  table.line("model", choice_name(archive.kind()));
   print_body(table, archive.geometry(), archive.discretisation().material, archive.kind());
   if (archive.kind() != ModelKind::rigid) print_matrices(table, archive);
   table.line("made by", p.program, " from ", p.mesh_file, " (times ", p.mesh_scale, ") and ",
@@ -276,7 +276,7 @@ Json stats_json(const BodyModel& model, const std::string& archive, const PhaseT
   Json json = {{"program", version_text()},
                {"archive", archive},
                {"archive_bytes", std::filesystem::file_size(archive)},
-               {"model", model_name(model.kind)},
+               {"model", choice_name(model.kind)},
                {"threads", thread_count()},
                {"wall_seconds", timer.total_wall_seconds()},
                {"peak_memory_bytes", peak_memory()},
@@ -285,8 +285,7 @@ Json stats_json(const BodyModel& model, const std::string& archive, const PhaseT
                {"material", material_json(model.discretisation.material)},
                {"warnings", warnings}};
   if (model.kind == ModelKind::rigid) return json;
-  json["codec"] = codec_name(model.codec);
-  if (model.codec == Codec::none) json["precision"] = precision_name(model.precision);
+  add_codec(json, *model.codec);
   json["scheme"] = scheme_json(model.discretisation, model.window);
   json["report"] = report_json(model.report);
   return json;

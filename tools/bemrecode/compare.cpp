@@ -60,14 +60,14 @@ std::vector<double> product_errors(const MatrixFamily& exact, const MatrixFamily
 }
 
 /// Codec haar with as many coefficients as take about `bytes`.
-std::unique_ptr<MatrixFamily> haar_of_size(const DenseFamily<float>& dense, MatrixForm form,
+std::unique_ptr<MatrixFamily> haar_of_size(const MatrixFamily& dense, MatrixForm form,
                                            const std::vector<Vec3>& nodes, double bytes,
                                            double& error) {
   constexpr int kTrials = 4;
   constexpr double kCloseEnough = 0.01, kBytesPerEntry = 3.1;
   const double entries = static_cast<double>(dense.rows()) * static_cast<double>(dense.rows()) *
                          static_cast<double>(dense.count());
-  CodecOptions options{Codec::haar, 0, std::max(1.0, entries * kBytesPerEntry / bytes)};
+  CodecOptions options(codec_named("haar"), 0, std::max(1.0, entries * kBytesPerEntry / bytes));
   std::unique_ptr<MatrixFamily> family;
   for (int trial = 0; trial < kTrials; ++trial) {
     family = recode(dense, form, nodes, options, error);
@@ -86,7 +86,7 @@ Json compare_codecs(BodyModel& model, const std::vector<double>& tolerances) {
   const Eigen::MatrixXd rough = rough_vectors(smooth.rows());
   Json out = {{"nodes", nodes.size()}, {"families", Json::array()}};
   for (const NamedFamily& named : families_of(model)) {
-    const DenseFamily<float>& dense = dense_family(named);
+    const MatrixFamily& dense = **named.family;
     Json family = {{"name", named.name},
                    {"matrices", dense.count()},
                    {"dense_bytes", dense.bytes()},
@@ -100,7 +100,8 @@ Json compare_codecs(BodyModel& model, const std::vector<double>& tolerances) {
     for (double tolerance : tolerances) {
       Json size = {{"tolerance", tolerance}};
       double error = 0;
-      const auto low_rank = recode(dense, named.form, nodes, {Codec::lowrank, tolerance, 0}, error);
+      const auto low_rank =
+          recode(dense, named.form, nodes, CodecOptions(codec_named("lowrank"), tolerance), error);
       add(size, "lowrank", *low_rank, error);
       const auto haar =
           haar_of_size(dense, named.form, nodes, static_cast<double>(low_rank->bytes()), error);

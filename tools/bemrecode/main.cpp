@@ -34,9 +34,11 @@ void check(const Options& o) {
   files.check();
   if (o.output.empty() == o.compared.empty())
     refuse("name either the archive to write, -o OUT.bem, or tolerances to --compare codecs at");
-  if (o.codec != "haar" && o.codec != "lowrank")
-    refuse("--codec is haar or lowrank, not \"" + o.codec + "\"");
-  if (o.ratio != 0 && o.codec != "haar") refuse("--compression-ratio belongs to --codec haar");
+  const Codec* codec = find_codec(o.codec);
+  if (!codec || codec->is_lossless())
+    refuse("compression is by " + codec_options_with(is_lossy) + ", not by --codec " + o.codec);
+  if (o.ratio != 0 && !codec->takes_ratio())
+    refuse("--compression-ratio belongs to " + codec_options_with(takes_ratio));
   if (o.ratio != 0 && !(o.ratio >= 1 && o.ratio <= 1e4))
     refuse("--compression-ratio must be from 1 to 10000");
   std::vector<double> tolerances = o.compared;
@@ -46,16 +48,11 @@ void check(const Options& o) {
 }
 
 /// The options of the uncompressed archive with another codec.
-std::string recoded_options(std::string text, const Options& o) {
-  const std::string before = "--codec none --precision float32";
+std::string recoded_options(std::string text, const Codec& from, const CodecOptions& to) {
+  const std::string before = from.options_text(CodecOptions(from));
   const std::size_t at = text.find(before);
-  if (at == std::string::npos)
-    throw Error(ErrorCode::archive,
-                o.input + ": is not an archive of --codec none in single precision");
-  return text.replace(at, before.size(),
-                      "--codec " + o.codec +
-                          (o.ratio > 0 ? " --compression-ratio " + to_text(o.ratio)
-                                       : " --codec-tol " + to_text(o.tolerance)));
+  require(at != std::string::npos, "an archive names its codec");
+  return text.replace(at, before.size(), to.codec->options_text(to));
 }
 
 int run(int argc, char** argv) {
@@ -88,16 +85,16 @@ int run(int argc, char** argv) {
   if (archive.kind() != ModelKind::dynamic)
     throw Error(ErrorCode::archive, o.input + ": is not the archive of a dynamic body");
   Provenance provenance = archive.provenance();
-  provenance.options = recoded_options(provenance.options, o);
+  if (archive.codec().precision() != Precision::float32)
+    throw Error(ErrorCode::archive,
+                o.input + ": is not an archive of --codec none in single precision");
+  const CodecOptions codec(codec_named(o.codec), o.tolerance, o.ratio);
+  provenance.options = recoded_options(provenance.options, archive.codec(), codec);
   BodyModel model = archive.load_all();
   if (!o.compared.empty()) {
     std::cout << compare_codecs(model, o.compared).dump(1) << "\n" << std::flush;
     return 0;
   }
-  CodecOptions codec;
-  codec.codec = o.codec == "haar" ? Codec::haar : Codec::lowrank;
-  codec.tolerance = o.tolerance;
-  codec.ratio = o.ratio;
   recode(model, codec);
   write_archive(o.output, model, provenance, o.force);
   return 0;

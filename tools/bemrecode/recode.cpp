@@ -2,72 +2,66 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "compress/direct_builder.hpp"
-#include "compress/low_rank_builder.hpp"
 #include "model/balance.hpp"
 #include "model/precompute.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace bem {
 namespace {
 
-/// Rows of all matrices of a family as builders take them.
-class Rows {
- public:
-  Rows(const DenseFamily<float>& family, const Slab& slab) : matrices_(family.count()) {
-    const auto columns = static_cast<Eigen::Index>(family.columns());
-    const Eigen::Index first = 3 * slab.row_begin, count = 3 * slab.row_end - first;
-    parallel_for(matrices_.size(), [&](std::size_t k) {
-      using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-      const float* from = family.matrix(static_cast<int>(k)).row(static_cast<std::size_t>(first));
-      matrices_[k] = Eigen::Map<const RowMajor>(from, count, columns);
-    });
-  }
-  std::vector<MatrixView<float>> views() const {
-    std::vector<MatrixView<float>> out;
-    for (const Eigen::MatrixXf& m : matrices_)
-      out.emplace_back(m.data(), m.rows(), m.cols(), Eigen::OuterStride<>(m.rows()));
-    return out;
-  }
-
- private:
-  std::vector<Eigen::MatrixXf> matrices_;
-};
-
-double norm_of(const DenseFamily<float>& family) {
-  std::vector<double> rows(family.rows());
-  parallel_for(rows.size(), [&](std::size_t i) {
-    for (int k = 0; k < family.count(); ++k) {
-      const float* row = family.matrix(k).row(i);
-      for (std::size_t j = 0; j < family.columns(); ++j)
-        rows[i] += static_cast<double>(row[j]) * static_cast<double>(row[j]);
-    }
+/// Rows [first, last) of nodes of all matrices of a family, in single precision.
+std::vector<Eigen::MatrixXf> rows_of(const MatrixFamily& family, int first, int last) {
+  std::vector<int> rows(3 * static_cast<std::size_t>(last - first)), columns(family.columns());
+  std::iota(rows.begin(), rows.end(), 3 * first);
+  std::iota(columns.begin(), columns.end(), 0);
+  std::vector<Eigen::MatrixXf> out(static_cast<std::size_t>(family.count()));
+  parallel_for(out.size(), [&](std::size_t k) {
+    out[k] = family.block(static_cast<int>(k), rows, columns).cast<float>();
   });
-  double sum = 0;
-  for (double row : rows) sum += row;
-  return std::sqrt(sum);
+  return out;
+}
+
+std::vector<MatrixView<float>> views(const std::vector<Eigen::MatrixXf>& matrices) {
+  std::vector<MatrixView<float>> out;
+  for (const Eigen::MatrixXf& m : matrices)
+    out.emplace_back(m.data(), m.rows(), m.cols(), Eigen::OuterStride<>(m.rows()));
+  return out;
+}
+
+/// Frobenius norm of all matrices together.
+double norm_of(const MatrixFamily& family) {
+  std::vector<double> nodes(family.rows() / 3);
+  parallel_for(nodes.size(), [&](std::size_t i) {
+    const int node = static_cast<int>(i);
+    for (const Eigen::MatrixXf& m : rows_of(family, node, node + 1))
+      nodes[i] += m.cast<double>().squaredNorm();
+  });
+  return std::sqrt(std::accumulate(nodes.begin(), nodes.end(), 0.0));
 }
 
 }  // namespace
 
-std::unique_ptr<MatrixFamily> recode(const DenseFamily<float>& family, MatrixForm form,
+std::unique_ptr<MatrixFamily> recode(const MatrixFamily& family, MatrixForm form,
                                      const std::vector<Vec3>& nodes, const CodecOptions& options,
                                      double& error) {
-  std::vector<Slab> slabs;
+  const Codec& codec = *options.codec;
+  std::vector<Slab> slabs = codec.slabs(nodes);
   std::unique_ptr<FamilyBuilder<float>> builder;
-  if (options.codec == Codec::lowrank) {
-    slabs = with_form(make_partition(nodes, {}), form);
+  if (codec.is_sampled()) {
+    slabs = with_form(slabs, form);
     const Slab& sample = typical_slab(slabs, form);
-    const double quantum = LowRankBuilder::choose_quantum(
-        sample, Rows(family, sample).views(), options.tolerance * norm_of(family), true);
-    builder = std::make_unique<LowRankBuilder>(slabs, family.count(), quantum, form);
+    const std::vector<Eigen::MatrixXf> rows = rows_of(family, sample.row_begin, sample.row_end);
+    builder = codec.sampled_builder(
+        {slabs, form, sample, views(rows), options.tolerance * norm_of(family), true});
   } else {
-    const int count = static_cast<int>(nodes.size());
-    slabs = direct_slabs(options, count);
-    builder = make_direct_builder<float>(options, count, family.count());
+    builder = codec.single_builder(options, static_cast<int>(nodes.size()), family.count());
   }
-  for (const Slab& slab : slabs) builder->add_rows(Rows(family, slab).views());
+  for (const Slab& slab : slabs) {
+    const std::vector<Eigen::MatrixXf> rows = rows_of(family, slab.row_begin, slab.row_end);
+    builder->add_rows(views(rows));
+  }
   auto out = builder->finish();
   error = builder->error();
   return out;
@@ -92,21 +86,12 @@ std::vector<NamedFamily> families_of(BodyModel& model) {
   return out;
 }
 
-const DenseFamily<float>& dense_family(const NamedFamily& named) {
-  const auto* dense = dynamic_cast<const DenseFamily<float>*>(named.family->get());
-  if (!dense)
-    throw Error(ErrorCode::archive,
-                "the matrices " + named.name +
-                    " are not there in single precision: make the archive with --codec none");
-  return *dense;
-}
-
 void recode(BodyModel& model, const CodecOptions& given) {
   const CodecOptions options = codec_of_body(model.geometry, model.discretisation.method, given);
   for (const NamedFamily& named : families_of(model)) {
     double error = 0;
     const bool stiffness = named.family == &model.stiffness;
-    *named.family = recode(dense_family(named), named.form, model.geometry.nodes.vertices,
+    *named.family = recode(**named.family, named.form, model.geometry.nodes.vertices,
                            stiffness ? stiffness_codec(options) : options, error);
     *named.error = std::max(*named.error, error);
   }

@@ -2,14 +2,13 @@
 
 #include "algebra/matrix_form.hpp"
 #include "compress/codec.hpp"
-#include "compress/dense_family.hpp"
 #include "model/body_model.hpp"
 
 namespace bem {
 
-/// An uncompressed family compressed, to a tolerance relative to its own Frobenius norm. `nodes`:
-/// in the order of the archive. `form`: of the matrices. `error`: what was reached.
-std::unique_ptr<MatrixFamily> recode(const DenseFamily<float>& family, MatrixForm form,
+/// A family compressed, to a tolerance relative to its own Frobenius norm. `nodes`: in the order of
+/// the archive. `form`: of the matrices. `error`: what was reached.
+std::unique_ptr<MatrixFamily> recode(const MatrixFamily& family, MatrixForm form,
                                      const std::vector<Vec3>& nodes, const CodecOptions& options,
                                      double& error);
 
@@ -21,8 +20,6 @@ struct NamedFamily {
   double* error;  ///< where the model has that of the codec
 };
 std::vector<NamedFamily> families_of(BodyModel& model);
-/// Throws ErrorCode::archive if it is not uncompressed in single precision.
-const DenseFamily<float>& dense_family(const NamedFamily& named);
 
 /// Compresses all matrices of a model, one family after another.
 void recode(BodyModel& model, const CodecOptions& options);

@@ -36,11 +36,11 @@ TEST_CASE("Archives of the same inputs have the same bytes for any thread count"
 TEST_CASE("The size of an archive is foreseen") {
   const test::TemporaryFolder folder("size");
   const Precision precision = GENERATE(Precision::float32, Precision::float64);
-  const BodyModel model = small_model("radau2", precision);
+  const BodyModel model = small_model("radau2", CodecOptions(codec_named("none", precision)));
   write_archive(folder / "a.bem", model, provenance(), false);
   PrecomputeOptions options;
   options.discretisation = model.discretisation;
-  options.precision = precision;
+  options.codec = CodecOptions(*model.codec);
   const double expected =
       archive_bytes(model.geometry, options, estimate_stored(model.geometry, options).bytes);
   const auto size = static_cast<double>(std::filesystem::file_size(folder / "a.bem"));

@@ -48,10 +48,10 @@ const Example& cube() {
 }
 
 CodecOptions tolerance(double t) {
-  return {Codec::haar, t, 0};
+  return CodecOptions(codec_named("haar"), t);
 }
 CodecOptions ratio(double r) {
-  return {Codec::haar, 1e-4, r};
+  return CodecOptions(codec_named("haar"), 1e-4, r);
 }
 
 std::size_t kept(const MatrixFamily& family) {

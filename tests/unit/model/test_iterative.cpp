@@ -15,12 +15,11 @@ struct Pair {
   BodyModel dense, iterative;
 };
 
-Pair make_pair_of(const std::string& scheme, Codec codec, Precision precision) {
+Pair make_pair_of(const std::string& scheme, const Codec& codec) {
   const Material m = material(1000, 1e6, 0.4);
   const BodyGeometry g = geometry_of(star(2, 0.4), m.density);
   PrecomputeOptions o = options_for(g, m, scheme, 3);
-  o.codec.codec = codec;
-  o.precision = precision;
+  o.codec = CodecOptions(codec);
   Pair pair;
   pair.dense = precompute(g, o);
   o.inverse = InverseKind::iterative;
@@ -37,15 +36,14 @@ double difference(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
 TEST_CASE("iterative solutions with H_0 are those of the stored inverse") {
   struct Case {
     const char* scheme;
-    Codec codec;
-    Precision precision;
+    const Codec& codec;
     double tolerance;
   };
-  for (const Case& c : {Case{"radau2", Codec::none, Precision::float64, 1e-10},
-                        Case{"theta:0.75", Codec::none, Precision::float32, 1e-5},
-                        Case{"radau2", Codec::lowrank, Precision::float32, 1e-3}}) {
-    CAPTURE(c.scheme, codec_name(c.codec));
-    const auto [dense, iterative] = make_pair_of(c.scheme, c.codec, c.precision);
+  for (const Case& c : {Case{"radau2", codec_named("none", Precision::float64), 1e-10},
+                        Case{"theta:0.75", codec_named("none"), 1e-5},
+                        Case{"radau2", codec_named("lowrank"), 1e-3}}) {
+    CAPTURE(c.scheme, c.codec.name());
+    const auto [dense, iterative] = make_pair_of(c.scheme, c.codec);
     CHECK(iterative.is_iterative());
     CHECK(iterative.inverse.empty());
     const ElasticSystem a(dense), b(iterative);
@@ -69,7 +67,7 @@ TEST_CASE("iterative solutions with H_0 are those of the stored inverse") {
 }
 
 TEST_CASE("steps of an iterative model start from the last ones and keep no rigid motion") {
-  const auto [dense, iterative] = make_pair_of("radau2", Codec::none, Precision::float64);
+  const auto [dense, iterative] = make_pair_of("radau2", codec_named("none", Precision::float64));
   const ElasticSystem a(dense), b(iterative);
   const auto n = static_cast<Eigen::Index>(3 * dense.nodes());
   SolutionMemory memory;
@@ -96,7 +94,7 @@ TEST_CASE("columns of nodes without loads are zero, the others as always") {
   const Material m = material(1000, 1e6, 0.4);
   const BodyGeometry g = geometry_of(star(2, 0.4), m.density);
   PrecomputeOptions o = options_for(g, m, "theta:0.75", 3);
-  o.codec.codec = Codec::lowrank;
+  o.codec = CodecOptions(codec_named("lowrank"));
   const BodyModel all = precompute(g, o);
   o.loads = Loads::some;
   for (int node = 20; node < 50; node += 3) o.loaded_nodes.push_back(node);

@@ -45,7 +45,7 @@ TEST_CASE("precomputation is bit-identical for any number of threads") {
   const Material m = material(1000, 1e6, 0.4);
   const BodyGeometry g = geometry_of(star(1, 0.4), m.density);
   PrecomputeOptions o = options_for(g, m, "radau2", 3);
-  o.precision = Precision::float32;
+  o.codec = CodecOptions();
   std::vector<Eigen::MatrixXd> inverses, lags;
   for (int threads : {1, 2, 3}) {
     set_thread_count(threads);
@@ -106,7 +106,7 @@ TEST_CASE("the memory estimate counts the stored matrices") {
       for (const auto& family : *families) bytes += static_cast<double>(family->bytes());
     return bytes;
   };
-  o.precision = Precision::float32;
+  o.codec = CodecOptions();
   o.discretisation.history_length = 6;
   // radau2: 18 lag matrices and one complex initial one, for H and G, in 4-byte entries
   const double unknowns = 3 * 642;
@@ -114,7 +114,7 @@ TEST_CASE("the memory estimate counts the stored matrices") {
   const double dense = estimate.bytes;
   CHECK(dense == Approx(unknowns * unknowns * 4 * 2 * 20).epsilon(0.02));
   CHECK(peak_bytes(g, o, estimate) > dense);
-  o.codec.codec = Codec::lowrank;
+  o.codec = CodecOptions(codec_named("lowrank"));
   const std::pair<Loads, InverseKind> variants[] = {{Loads::all, InverseKind::iterative},
                                                     {Loads::none, InverseKind::dense}};
   for (const auto& [loads, inverse] : variants) {
@@ -129,7 +129,8 @@ TEST_CASE("the memory estimate counts the stored matrices") {
 
 TEST_CASE("codecs are more exact where a body of the Galerkin method is thin or graded") {
   const auto tolerance = [](const TriangleMesh& mesh, SpatialMethod method) {
-    return codec_of_body(geometry_of(mesh, 1000), method, {Codec::lowrank, 1e-4}).tolerance;
+    return codec_of_body(geometry_of(mesh, 1000), method, CodecOptions(codec_named("lowrank")))
+        .tolerance;
   };
   const TriangleMesh cube = box({1, 1, 1}, {2, 2, 2}), plate = box({1, 1, 0.02}, {5, 5, 1});
   const double thin = 0.02 / (0.2 * std::sqrt(2.0)) / 0.3;

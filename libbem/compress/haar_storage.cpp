@@ -1,4 +1,4 @@
-#include "archive/haar_storage.hpp"
+#include "compress/haar_storage.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,20 +6,19 @@
 namespace bem {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t(32) << 20;  // bytes read or written at a time
-constexpr float kLargestHalf = 131072;                 // that the bits of a half may mean here
+constexpr float kLargestHalf = 131072;  // that the bits of a half may mean here
 
 /// Calls f(first, count) for pieces of `total` bytes.
 template <class F>
 void for_each_piece(std::size_t total, const F& f) {
-  for (std::size_t first = 0; first < total; first += kPiece)
-    f(first, std::min(kPiece, total - first));
+  for (std::size_t first = 0; first < total; first += kPieceBytes)
+    f(first, std::min(kPieceBytes, total - first));
 }
 
 }  // namespace
 
 void write_haar(Hdf5File& file, const std::string& group, const HaarFamily& family,
-                const std::function<void(std::size_t)>& report) {
+                const BytesReport& report) {
   const PackedRows& packed = family.packed();
   std::vector<std::int32_t> table;
   table.reserve(2 * packed.rows());
@@ -45,7 +44,7 @@ void write_haar(Hdf5File& file, const std::string& group, const HaarFamily& fami
 
 std::unique_ptr<HaarFamily> read_haar(const Hdf5File& file, const std::string& group,
                                       std::size_t size, int count, const std::vector<int>* columns,
-                                      const std::function<void(std::size_t)>& report) {
+                                      const BytesReport& report) {
   const auto check = [&](bool right, const std::string& what) {
     if (!right)
       throw Error(ErrorCode::archive, file.path() + ": " + group + what +

@@ -1,22 +1,19 @@
 #pragma once
 
+#include "compress/family_storage.hpp"
 #include "compress/haar_family.hpp"
-#include "files/hdf5.hpp"
-
-#include <functional>
 
 namespace bem {
 
-/// A HaarFamily in a group of an HDF5 file (docs/archive-format.md). `report` gets the bytes of
-/// large data that have been read or written.
+/// A HaarFamily in a group of an HDF5 file (docs/archive-format.md).
 void write_haar(Hdf5File& file, const std::string& group, const HaarFamily& family,
-                const std::function<void(std::size_t)>& report);
+                const BytesReport& report);
 
 /// With `columns` (ascending) only the coefficients that meet them are kept. Throws
 /// ErrorCode::archive if the group does not describe a family of `count` matrices of `size`
 /// unknowns.
 std::unique_ptr<HaarFamily> read_haar(const Hdf5File& file, const std::string& group,
                                       std::size_t size, int count, const std::vector<int>* columns,
-                                      const std::function<void(std::size_t)>& report);
+                                      const BytesReport& report);
 
 }  // namespace bem

@@ -1,18 +1,11 @@
 #pragma once
 
+#include "compress/family_storage.hpp"
 #include "compress/low_rank_family.hpp"
-#include "files/hdf5.hpp"
-
-#include <functional>
 
 namespace bem {
 
-/// Attribute of the group of a symmetric family.
-inline constexpr const char* kSymmetricAttribute = "symmetric";
-
-/// A LowRankFamily in a group of an HDF5 file (docs/archive-format.md). `report` gets the bytes of
-/// large data that have been read or written.
-using BytesReport = std::function<void(std::size_t)>;
+/// A LowRankFamily in a group of an HDF5 file (docs/archive-format.md).
 void write_low_rank(Hdf5File& file, const std::string& group, const LowRankFamily& family,
                     const BytesReport& report);
 
@@ -22,5 +15,8 @@ std::unique_ptr<LowRankFamily> read_low_rank(const Hdf5File& file, const std::st
                                              std::size_t size, int count,
                                              const std::vector<int>* columns,
                                              const BytesReport& report);
+
+/// LowRankFamily::coefficients() of the family in a group.
+std::size_t low_rank_coefficients(const Hdf5File& file, const std::string& group);
 
 }  // namespace bem

@@ -1,4 +1,4 @@
-#include "archive/low_rank_storage.hpp"
+#include "compress/low_rank_storage.hpp"
 
 #include "base/finite.hpp"
 #include "base/narrow.hpp"
@@ -11,7 +11,7 @@ namespace bem {
 namespace {
 
 constexpr std::size_t kBlockNumbers = 17, kLayerNumbers = 6;
-constexpr std::size_t kPiece = std::size_t(32) << 20;  // bytes read or written at a time
+constexpr char kSymmetricAttribute[] = "symmetric";  // of the group of a symmetric family
 
 using Numbers = std::vector<std::int32_t>;
 
@@ -136,7 +136,7 @@ class Reader {
       const std::size_t old = to.size();
       to.resize(old + count);
       for (std::size_t done = 0; done < count;) {
-        const std::size_t piece = std::min(count - done, kPiece / sizeof(T));
+        const std::size_t piece = std::min(count - done, kPieceBytes / sizeof(T));
         file_.read_rows(path(cursor.name), cursor.position + done, piece, to.data() + old + done);
         done += piece;
         report_(piece * sizeof(T));
@@ -305,6 +305,15 @@ std::unique_ptr<LowRankFamily> read_low_rank(const Hdf5File& file, const std::st
                                              const std::vector<int>* columns,
                                              const BytesReport& report) {
   return Reader(file, group, size, count, report).read(columns);
+}
+
+std::size_t low_rank_coefficients(const Hdf5File& file, const std::string& group) {
+  const auto count = [&](const char* scales) {
+    const Hdf5Dims dims = file.dims(group + scales);
+    return dims.empty() ? 0 : dims[0];
+  };
+  const bool symmetric = file.has_attribute(group, kSymmetricAttribute);
+  return count("/input_scales") + (symmetric ? count("/output_scales") : 0);
 }
 
 }  // namespace bem

@@ -1,4 +1,4 @@
-#include "archive/low_rank_storage.hpp"
+#include "compress/low_rank_storage.hpp"
 #include "support/archives.hpp"
 
 #include <functional>
