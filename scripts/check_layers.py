@@ -13,7 +13,8 @@ PLAN = {
     "algebra": "base",
     "mesh": "base files",
     "friction": "base algebra",
-    "scene": "base files mesh friction",
+    "output": "base files mesh",
+    "scene": "base files mesh friction output",
     "kernels": "base",
     "quadrature": "base",
     "assembly": "base algebra mesh kernels quadrature",
@@ -24,7 +25,6 @@ PLAN = {
     "dynamics": "base algebra mesh scene kernels assembly compress model",
     "constraints": "base algebra mesh scene collision friction dynamics",
     "simulation": "base mesh scene model dynamics constraints",
-    "output": "base files mesh",
 }
 ROOT = pathlib.Path(__file__).resolve().parent.parent / "libbem"
 

@@ -115,6 +115,10 @@ Hdf5Trajectory::Hdf5Trajectory(const std::string& directory, std::vector<Traject
   temporary_.publish();
 }
 
+bool Hdf5Trajectory::is_output(const std::filesystem::path& path) {
+  return path.filename() == kTrajectoryFile;
+}
+
 FileRecords Hdf5Trajectory::read_records(const std::string& directory,
                                          const std::vector<TrajectoryBody>& bodies,
                                          std::size_t frames) {

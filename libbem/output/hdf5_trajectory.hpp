@@ -7,6 +7,7 @@
 #include "output/frame.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,6 +53,9 @@ class Hdf5Trajectory : public FrameWriter {
   void sync() override;
   void close() override;
 
+  /// What output/output_format.hpp asks of a format.
+  static bool is_output(const std::filesystem::path& path);
+  static bool may_write(const std::filesystem::path& path) { return is_output(path); }
   /// Of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as many.
   static FileRecords read_records(const std::string& directory,
                                   const std::vector<TrajectoryBody>& bodies, std::size_t frames);

@@ -26,6 +26,10 @@ void ObjSequence::sync() {
   files_.sync(bodies_);
 }
 
+bool ObjSequence::is_output(const std::filesystem::path& path) {
+  return is_frame_file_name(path.filename().string(), kObjExtension);
+}
+
 FileRecords ObjSequence::read_records(const std::string& directory,
                                       const std::vector<TrajectoryBody>& bodies,
                                       std::size_t frames) {

@@ -3,11 +3,7 @@
 #include "base/error.hpp"
 #include "files/file_io.hpp"
 #include "files/temporary_file.hpp"
-#include "output/frame_files.hpp"
-#include "output/hdf5_trajectory.hpp"
-#include "output/obj_sequence.hpp"
-#include "output/point_cache.hpp"
-#include "output/vtp_sequence.hpp"
+#include "output/output_format.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -18,45 +14,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Is there the cache that a mesh in the folder of caches belongs to? Others are not ours.
-bool belongs_to_cache(fs::path mesh) {
-  std::error_code ignored;
-  return mesh.extension() == kPointCacheMeshExtension &&
-         fs::exists(mesh.replace_extension(kPointCacheExtension), ignored);
-}
-
-bool is_point_cache_file(const fs::path& path) {
-  return (path.extension() == kPointCacheExtension && path.has_stem()) || belongs_to_cache(path);
-}
-
-/// Where an output format puts its files, and how they are recognised, by their final names.
-struct FormatFiles {
-  const char* folder;  ///< in the output directory; "" is that itself
-  bool (*recognise)(const fs::path& path);
-};
-
 fs::path final_path(const fs::path& path) {
   const std::string name = path.filename().string();
   return path.parent_path() / TemporaryFile::final_name(name);
 }
 
-constexpr FormatFiles kFormats[] = {
-    {"",
-     [](const fs::path& path) {
-       const std::string name = path.filename().string();
-       return name == kTrajectoryFile || name == kCheckpointFile;
-     }},
-    {kObjFolder,
-     [](const fs::path& path) {
-       return is_frame_file_name(path.filename().string(), kObjExtension);
-     }},
-    {kVtpFolder,
-     [](const fs::path& path) {
-       const std::string name = path.filename().string();
-       return is_frame_file_name(name, kVtpExtension) || name == kPvdFile;
-     }},
-    {kPointCacheFolder, is_point_cache_file},
-};
+bool is_checkpoint(const fs::path& path) {
+  return path.filename() == kCheckpointFile;
+}
+
+/// Files of the formats, and the checkpoint: calls f(folder, is_output, may_write).
+template <class F>
+void for_each_kind(const std::string& directory, const F& f) {
+  f(fs::path(directory), &is_checkpoint, &is_checkpoint);
+  for (const OutputFormat* format : output_formats())
+    f(fs::path(directory) / format->folder, format->is_output, format->may_write);
+}
 
 fs::path canonical_folder(const fs::path& path) {
   std::error_code unknown;
@@ -86,28 +59,25 @@ void remove_emptied_folders(const std::string& directory, const std::vector<std:
 
 std::vector<std::string> find_output(const std::string& directory) {
   std::vector<std::string> files;
-  for (const FormatFiles& format : kFormats) {
-    const fs::path folder = fs::path(directory) / format.folder;
+  for_each_kind(directory, [&](const fs::path& folder, auto is_output, auto /*may_write*/) {
     std::error_code ended;
     for (fs::directory_iterator it(folder, ended), end; !ended && it != end; it.increment(ended)) {
       std::error_code ignored;
-      if (format.recognise(final_path(it->path())) &&
-          !fs::is_directory(it->symlink_status(ignored)))
+      if (is_output(final_path(it->path())) && !fs::is_directory(it->symlink_status(ignored)))
         files.push_back(it->path().string());
     }
-  }
+  });
   std::sort(files.begin(), files.end());
   return files;
 }
 
 bool is_output_name(const std::string& directory, const std::string& path) {
-  const fs::path folder = canonical_folder(folder_of(path));
-  return std::any_of(std::begin(kFormats), std::end(kFormats), [&](const FormatFiles& format) {
-    // a mesh may become that of a cache which is not there yet
-    return folder == canonical_folder(fs::path(directory) / format.folder) &&
-           (format.recognise(path) || (folder.filename() == kPointCacheFolder &&
-                                       fs::path(path).extension() == kPointCacheMeshExtension));
+  const fs::path own_folder = canonical_folder(folder_of(path));
+  bool found = false;
+  for_each_kind(directory, [&](const fs::path& folder, auto /*is_output*/, auto may_write) {
+    found = found || (own_folder == canonical_folder(folder) && may_write(path));
   });
+  return found;
 }
 
 FolderLock create_output_directory(const std::string& directory) {

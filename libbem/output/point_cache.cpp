@@ -132,6 +132,19 @@ void PointCache::sync() {
 }
 
 /// Two for each body: its cache, and the mesh.
+/// Of meshes those whose cache is there; others are not ours.
+bool PointCache::is_output(const std::filesystem::path& path) {
+  if (path.extension() == kPointCacheExtension) return path.has_stem();
+  std::error_code ignored;
+  std::filesystem::path cache = path;
+  return path.extension() == kPointCacheMeshExtension &&
+         std::filesystem::exists(cache.replace_extension(kPointCacheExtension), ignored);
+}
+
+bool PointCache::may_write(const std::filesystem::path& path) {
+  return is_output(path) || path.extension() == kPointCacheMeshExtension;
+}
+
 FileRecords PointCache::read_records(const std::string& directory,
                                      const std::vector<TrajectoryBody>& bodies,
                                      std::size_t frames) {

@@ -104,6 +104,11 @@ void VtpSequence::sync() {
   list_.sync();
 }
 
+bool VtpSequence::is_output(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  return is_frame_file_name(name, kVtpExtension) || name == kPvdFile;
+}
+
 FileRecords VtpSequence::read_records(const std::string& directory,
                                       const std::vector<TrajectoryBody>& bodies,
                                       std::size_t frames) {

@@ -4,6 +4,7 @@
 #include "output/frame_files.hpp"
 #include "output/pvd_collection.hpp"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ class VtpSequence : public FrameWriter {
   void sync() override;
   void close() override { list_.close(); }
 
+  /// What output/output_format.hpp asks of a format.
+  static bool is_output(const std::filesystem::path& path);
+  static bool may_write(const std::filesystem::path& path) { return is_output(path); }
   /// Of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as many.
   static FileRecords read_records(const std::string& directory,
                                   const std::vector<TrajectoryBody>& bodies, std::size_t frames);

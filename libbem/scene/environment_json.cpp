@@ -49,6 +49,14 @@ JointEnd read_joint_end(const JsonValue& value, JointType type, const BodyNames&
   return end;
 }
 
+/// Known by their names.
+std::vector<const OutputFormat*> read_formats(const JsonValue& value) {
+  std::vector<const OutputFormat*> formats;
+  for (std::size_t index : value.choices(output_format_names(), "array of formats"))
+    formats.push_back(output_formats()[index]);
+  return formats;
+}
+
 }  // namespace
 
 ObstacleSpec read_obstacle(const JsonValue& value) {
@@ -115,8 +123,7 @@ OutputSpec read_output(const JsonValue& value) {
   JsonReader reader(value, "the output settings");
   OutputSpec output;
   output.location = value.location();
-  if (const auto formats = reader.optional("formats"))
-    output.formats = formats->choices<OutputFormat>("array of formats");
+  if (const auto formats = reader.optional("formats")) output.formats = read_formats(*formats);
   if (const auto every = reader.optional("every"))
     output.every = every->integer_in(1, std::numeric_limits<int>::max());
   if (const auto fields = reader.optional("fields"))

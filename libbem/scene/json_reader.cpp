@@ -129,6 +129,17 @@ std::size_t JsonValue::choice(const std::vector<std::string>& names) const {
               (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
 }
 
+std::vector<std::size_t> JsonValue::choices(const std::vector<std::string>& names,
+                                            const std::string& what) const {
+  std::vector<std::size_t> chosen;
+  for (const JsonValue& item : items(1, what)) {
+    chosen.push_back(item.choice(names));
+    if (std::count(chosen.begin(), chosen.end(), chosen.back()) > 1)
+      throw item.error("the string " + in_quotes(item.text()) + " is already in this array");
+  }
+  return chosen;
+}
+
 JsonReader::JsonReader(const JsonValue& object, const std::string& what) : object_(object) {
   if (object.kind() != JsonKind::object) throw object.unexpected(what + " (an object)");
 }

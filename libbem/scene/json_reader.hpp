@@ -45,15 +45,13 @@ class JsonValue {
   template <class T>
   std::vector<T> choices(const std::string& what) const {
     std::vector<T> chosen;
-    for (const JsonValue& item : items(1, what)) {
-      const T choice = item.choice<T>();
-      for (T earlier : chosen)
-        if (earlier == choice)
-          throw item.error("the string " + in_quotes(item.text()) + " is already in this array");
-      chosen.push_back(choice);
-    }
+    for (std::size_t index : choices(choice_names<T>(), what))
+      chosen.push_back(Choices<T>::all[index].value);
     return chosen;
   }
+  /// Indices in `names` of such strings.
+  std::vector<std::size_t> choices(const std::vector<std::string>& names,
+                                   const std::string& what) const;
 
   /// The error "expected `expected`, found ..." at this place.
   Error unexpected(const std::string& expected) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "friction/friction_options.hpp"
+#include "output/output_format.hpp"
 #include "scene/body_spec.hpp"
 
 // A scene as it is written in its JSON file (docs/scene-format.md), with the defaults filled in.
@@ -79,16 +80,6 @@ struct ContactSpec {
   Location location;
 };
 
-enum class OutputFormat { obj, hdf5, vtp, pc2 };
-
-template <>
-struct Choices<OutputFormat> {
-  static constexpr std::array<Choice<OutputFormat>, 4> all = {{{OutputFormat::obj, "obj"},
-                                                               {OutputFormat::hdf5, "hdf5"},
-                                                               {OutputFormat::vtp, "vtp"},
-                                                               {OutputFormat::pc2, "pc2"}}};
-};
-
 enum class OutputField { positions, tractions };
 
 template <>
@@ -98,7 +89,8 @@ struct Choices<OutputField> {
 };
 
 struct OutputSpec {
-  std::vector<OutputFormat> formats = {OutputFormat::hdf5};    ///< each at most once, at least one
+  /// Each at most once, at least one.
+  std::vector<const OutputFormat*> formats = {find_output_format("hdf5")};
   int every = 1;                                               ///< steps from frame to frame, >= 1
   std::vector<OutputField> fields = {OutputField::positions};  ///< each at most once
   Location location;

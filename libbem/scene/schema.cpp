@@ -6,25 +6,24 @@
 namespace bem {
 namespace {
 
-/// Puts the names of an enumeration in place of its own: "enum": "T" becomes "enum": ["a", "b"].
-template <class T>
-void list_names(std::string& schema, const std::string& enumeration) {
-  const std::string mark = "\"enum\": \"" + enumeration + "\"";
+/// Puts names in place of that of their kind: "enum": "T" becomes "enum": ["a", "b"].
+void list_names(std::string& schema, const std::string& kind,
+                const std::vector<std::string>& choices) {
+  const std::string mark = "\"enum\": \"" + kind + "\"";
   std::string names;
-  for (const std::string& name : choice_names<T>())
-    names += (names.empty() ? "\"" : ", \"") + name + "\"";
+  for (const std::string& name : choices) names += (names.empty() ? "\"" : ", \"") + name + "\"";
   const std::size_t at = schema.find(mark);
   require(at != std::string::npos, "the schema has every enumeration of scenes");
   schema.replace(at, mark.size(), "\"enum\": [" + names + "]");
 }
 
 std::string with_names(std::string schema) {
-  list_names<FrameMotion>(schema, "FrameMotion");
-  list_names<Correction>(schema, "Correction");
-  list_names<FrictionCombine>(schema, "FrictionCombine");
-  list_names<FrictionMethod>(schema, "FrictionMethod");
-  list_names<OutputFormat>(schema, "OutputFormat");
-  list_names<OutputField>(schema, "OutputField");
+  list_names(schema, "FrameMotion", choice_names<FrameMotion>());
+  list_names(schema, "Correction", choice_names<Correction>());
+  list_names(schema, "FrictionCombine", choice_names<FrictionCombine>());
+  list_names(schema, "FrictionMethod", choice_names<FrictionMethod>());
+  list_names(schema, "OutputFormat", output_format_names());
+  list_names(schema, "OutputField", choice_names<OutputField>());
   return schema;
 }
 

@@ -26,7 +26,7 @@ std::string scene_text(const Plan& plan, const Options& options) {
   scene.erase("duration");
   const OutputSpec& output = plan.scene.output;
   nlohmann::json formats = nlohmann::json::array();
-  for (OutputFormat format : output.formats) formats.push_back(choice_name(format));
+  for (const OutputFormat* format : output.formats) formats.push_back(format->name);
   const std::string frames =
       options.fps ? "--fps " + to_text(*options.fps) : "--every " + std::to_string(output.every);
   scene["output"] = {{"formats", formats}, {"frames", frames}, {"fields", output.fields}};

@@ -67,16 +67,16 @@ void add_options(CLI::App& app, Typed& t) {
   app.add_flag("--print-schema", t.print_schema, "print the JSON Schema of scenes, then stop");
 }
 
-std::vector<OutputFormat> parse_formats(const std::vector<std::string>& names) {
-  std::vector<OutputFormat> formats;
+std::vector<const OutputFormat*> parse_formats(const std::vector<std::string>& names) {
+  std::vector<const OutputFormat*> formats;
   for (const std::string& name : names) {
-    const std::optional<OutputFormat> format = find_choice<OutputFormat>(name);
+    const OutputFormat* format = find_output_format(name);
     if (!format)
       refuse("--format does not know " + in_quotes(name) + "; it takes " +
-             choice_list<OutputFormat>());
-    if (std::find(formats.begin(), formats.end(), *format) != formats.end())
+             list_text(output_format_names()));
+    if (std::find(formats.begin(), formats.end(), format) != formats.end())
       refuse("--format names " + name + " twice");
-    formats.push_back(*format);
+    formats.push_back(format);
   }
   return formats;
 }

@@ -14,7 +14,7 @@ struct Options {
   Action action = Action::simulate;
 
   std::string scene, output;
-  std::vector<OutputFormat> formats;  ///< empty: the scene's
+  std::vector<const OutputFormat*> formats;  ///< empty: the scene's
   std::optional<long> steps;
   std::optional<double> duration;  ///< [s]
   std::optional<int> every;        ///< steps from frame to frame

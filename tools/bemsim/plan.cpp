@@ -299,8 +299,8 @@ void print_plan(std::ostream& out, const Plan& plan) {
       << to_text(scene.time_step) << " s\n";
   out << "threads: " << thread_count() << "\n";
   out << "output:  " << count_text(static_cast<std::size_t>(plan.frames()), "frame") << " as";
-  for (OutputFormat format : scene.output.formats)
-    out << (format == scene.output.formats.front() ? " " : ", ") << choice_name(format);
+  for (const OutputFormat* format : scene.output.formats)
+    out << (format == scene.output.formats.front() ? " " : ", ") << format->name;
   const auto& fields = scene.output.fields;
   if (std::count(fields.begin(), fields.end(), OutputField::tractions) > 0)
     out << ", with tractions";

@@ -1,10 +1,6 @@
 #include "writers.hpp"
 
 #include "base/error.hpp"
-#include "output/hdf5_trajectory.hpp"
-#include "output/obj_sequence.hpp"
-#include "output/point_cache.hpp"
-#include "output/vtp_sequence.hpp"
 
 #include <algorithm>
 
@@ -21,29 +17,6 @@ Bodies bodies_of(const Plan& plan) {
                       writes_tractions(plan.scene), mesh.vertices});
   }
   return bodies;
-}
-
-/// Calls `use` with the writer's type as that of its argument, a null pointer.
-template <class Use>
-auto with_writer(OutputFormat format, const Use& use) {
-  switch (format) {
-    case OutputFormat::hdf5:
-      return use(static_cast<Hdf5Trajectory*>(nullptr));
-    case OutputFormat::obj:
-      return use(static_cast<ObjSequence*>(nullptr));
-    case OutputFormat::vtp:
-      return use(static_cast<VtpSequence*>(nullptr));
-    case OutputFormat::pc2:
-      return use(static_cast<PointCache*>(nullptr));
-  }
-  throw Error(ErrorCode::internal, "no writer for the format " + choice_name(format));
-}
-
-FileRecords read_records(OutputFormat format, const std::string& directory, const Bodies& bodies,
-                         std::size_t frames) {
-  return with_writer(format, [&](auto* type) {
-    return std::remove_pointer_t<decltype(type)>::read_records(directory, bodies, frames);
-  });
 }
 
 }  // namespace
@@ -67,7 +40,7 @@ void check_output_records(const Plan& plan, const std::string& directory, std::s
   for (std::size_t i = 0; i < formats.size(); ++i) {
     FileRecords found;
     try {
-      found = read_records(formats[i], directory, bodies, frames);
+      found = formats[i]->read_records(directory, bodies, frames);
     } catch (const Error& e) {
       if (e.code() != ErrorCode::invalid_input) throw;
       refuse(e.what());
@@ -80,10 +53,8 @@ void check_output_records(const Plan& plan, const std::string& directory, std::s
 Writers::Writers(const Plan& plan, const std::string& directory, std::size_t kept,
                  const OutputRecords& records) {
   const Bodies bodies = bodies_of(plan);
-  for (OutputFormat format : plan.scene.output.formats) {
-    writers_.push_back(with_writer(format, [&](auto* type) -> std::unique_ptr<FrameWriter> {
-      return std::make_unique<std::remove_pointer_t<decltype(type)>>(directory, bodies, kept);
-    }));
+  for (const OutputFormat* format : plan.scene.output.formats) {
+    writers_.push_back(format->make_writer(directory, bodies, kept));
     if (kept > 0) writers_.back()->set_records(records[writers_.size() - 1]);
   }
 }

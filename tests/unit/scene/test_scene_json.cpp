@@ -42,7 +42,8 @@ TEST_CASE("a scene that uses every key is read completely: the world") {
   REQUIRE_FALSE(s.contact.self);
   REQUIRE(s.contact.tolerance == 1e-5);
   REQUIRE(s.contact.friction_combine == FrictionCombine::average);
-  REQUIRE(s.output.formats == std::vector<OutputFormat>{OutputFormat::hdf5, OutputFormat::obj});
+  REQUIRE(s.output.formats ==
+          std::vector<const OutputFormat*>{find_output_format("hdf5"), find_output_format("obj")});
   REQUIRE(s.output.every == 3);
   REQUIRE(s.output.fields ==
           std::vector<OutputField>{OutputField::positions, OutputField::tractions});
@@ -108,7 +109,7 @@ TEST_CASE("what a scene does not mention has its default") {
   REQUIRE(s.obstacles.empty());
   REQUIRE(s.joints.empty());
   REQUIRE_FALSE(s.contact.enabled);
-  REQUIRE(s.output.formats == std::vector<OutputFormat>{OutputFormat::hdf5});
+  REQUIRE(s.output.formats == std::vector<const OutputFormat*>{find_output_format("hdf5")});
   REQUIRE(s.output.every == 1);
   REQUIRE(s.output.fields == std::vector<OutputField>{OutputField::positions});
   const BodySpec& b = s.bodies[0];

@@ -1,0 +1,47 @@
+#include "output/hdf5_trajectory.hpp"
+#include "output/obj_sequence.hpp"
+#include "output/output_format.hpp"
+#include "output/point_cache.hpp"
+#include "output/vtp_sequence.hpp"
+
+namespace bem {
+namespace {
+
+/// The format of a writer, which names and recognises its files.
+template <class Writer>
+OutputFormat format_of(const char* name, const char* folder) {
+  return {name,
+          folder,
+          &Writer::is_output,
+          &Writer::may_write,
+          [](const std::string& directory, const OutputFormat::Bodies& bodies,
+             std::size_t kept) -> std::unique_ptr<FrameWriter> {
+            return std::make_unique<Writer>(directory, bodies, kept);
+          },
+          &Writer::read_records};
+}
+
+}  // namespace
+
+const std::vector<const OutputFormat*>& output_formats() {
+  static const OutputFormat obj = format_of<ObjSequence>("obj", kObjFolder),
+                            hdf5 = format_of<Hdf5Trajectory>("hdf5", ""),
+                            vtp = format_of<VtpSequence>("vtp", kVtpFolder),
+                            pc2 = format_of<PointCache>("pc2", kPointCacheFolder);
+  static const std::vector<const OutputFormat*> formats = {&obj, &hdf5, &vtp, &pc2};
+  return formats;
+}
+
+std::vector<std::string> output_format_names() {
+  std::vector<std::string> names;
+  for (const OutputFormat* format : output_formats()) names.emplace_back(format->name);
+  return names;
+}
+
+const OutputFormat* find_output_format(const std::string& name) {
+  for (const OutputFormat* format : output_formats())
+    if (format->name == name) return format;
+  return nullptr;
+}
+
+}  // namespace bem
