@@ -41,9 +41,9 @@ Archive::Archive(const std::string& path)
 }
 
 template <class T>
-T Archive::read_choice(const std::string& name, T missing) const {
-  if (!file_.has_attribute("/", name)) return missing;
-  const std::string text = file_.string_attribute("/", name);
+T Archive::read_choice(const std::string& name, T missing, const char* group) const {
+  if (!file_.has_attribute(group, name)) return missing;
+  const std::string text = file_.string_attribute(group, name);
   const std::optional<T> value = find_choice<T>(text);
   if (!value)
     refuse("has the " + name + " \"" + text + "\", but this version of the program understands " +
@@ -176,11 +176,10 @@ void Archive::read_discretisation() {
   const std::string name = file_.string_attribute("/scheme", "name");
   try {
     d.scheme = Scheme::parse(name);
-    if (file_.has_attribute("/scheme", "discretisation"))
-      d.method = parse_spatial_method(file_.string_attribute("/scheme", "discretisation"));
   } catch (const Error& e) {
     refuse(e.what());
   }
+  d.method = read_choice("discretisation", SpatialMethod::collocation, "/scheme");
   if (!dynamic && !d.scheme.is_multistep()) refuse("is static and has a scheme with stages");
   check_scheme();
 }

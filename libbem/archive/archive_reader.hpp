@@ -62,7 +62,7 @@ class Archive {
   bool has_centrifugal() const;
   /// Whether lags of h multiply accelerations, see BodyModel::stiffness.
   bool is_inertial() const {
-    return discretisation_.method == SpatialMethod::galerkin && discretisation_.history_length > 0;
+    return discretisation_.is_galerkin() && discretisation_.history_length > 0;
   }
 
   /// One of the balance matrices at kBalancePath or kTractionBalancePath, 6 x unknowns; without
@@ -95,9 +95,9 @@ class Archive {
     bool of_tractions;  ///< loads, contacts and joints alone need it
   };
   std::vector<PlacedFamily> families() const;
-  /// The value of an attribute of the root; `missing` if it is not there.
+  /// The value of an attribute; `missing` if it is not there.
   template <class T>
-  T read_choice(const std::string& name, T missing) const;
+  T read_choice(const std::string& name, T missing, const char* group = "/") const;
   [[noreturn]] void refuse(const std::string& what) const;
   void read_kind();
   void read_storage();

@@ -114,8 +114,7 @@ void write_scheme(Hdf5File& file, const BodyModel& model) {
   file.set_attribute("/scheme", "history_length", d.history_length);
   file.set_attribute("/scheme", "window", model.window);
   file.set_attribute("/scheme", "quadrature_tolerance", d.quadrature_tolerance);
-  if (d.method != SpatialMethod::collocation)
-    file.set_attribute("/scheme", "discretisation", spatial_method_name(d.method));
+  if (d.is_galerkin()) file.set_attribute("/scheme", "discretisation", choice_name(d.method));
   if (d.damping.time > 0) file.set_attribute("/scheme", "damping_time", d.damping.time);
   for (const SchemeTable& table : scheme_tables(d.scheme)) {
     Hdf5Dims dims = {static_cast<std::size_t>(table.values.rows())};

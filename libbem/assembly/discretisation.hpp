@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/choices.hpp"
 #include "base/material.hpp"
 #include "kernels/scheme.hpp"
 
@@ -11,9 +12,11 @@ enum class SpatialMethod {
   galerkin      ///< hypersingular equation, displacements with reconstructed edges
 };
 
-/// "collocation" or "galerkin"; parsing throws ErrorCode::usage for other names.
-const char* spatial_method_name(SpatialMethod method);
-SpatialMethod parse_spatial_method(const std::string& name);
+template <>
+struct Choices<SpatialMethod> {
+  static constexpr std::array<Choice<SpatialMethod>, 2> all = {
+      {{SpatialMethod::galerkin, "galerkin"}, {SpatialMethod::collocation, "collocation"}}};
+};
 
 /// What determines the matrices of a body besides its mesh.
 struct Discretisation {
@@ -24,6 +27,8 @@ struct Discretisation {
   double quadrature_tolerance = 1e-6;
   Damping damping = {};
   SpatialMethod method = SpatialMethod::collocation;
+
+  bool is_galerkin() const { return method == SpatialMethod::galerkin; }
 };
 
 /// |s|_max dt of the scheme: the largest modulus on the unit circle of the principal eigenvalue of

@@ -46,7 +46,7 @@ class GalerkinLoads : public LoadAssembler {
 
 std::unique_ptr<LoadAssembler> make_load_assembler(const TriangleMesh& mesh, double extent,
                                                    const Discretisation& discretisation) {
-  if (discretisation.method == SpatialMethod::galerkin)
+  if (discretisation.is_galerkin())
     return std::make_unique<GalerkinLoads>(mesh, extent, discretisation);
   return std::make_unique<CollocationLoads>(mesh, extent, discretisation);
 }

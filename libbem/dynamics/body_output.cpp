@@ -8,7 +8,7 @@ namespace {
 
 /// Of motions that have no meaning any more.
 std::string cures(const BodyModel& model) {
-  const bool galerkin = model.discretisation.method == SpatialMethod::galerkin;
+  const bool galerkin = model.discretisation.is_galerkin();
   return std::string(
              "if its loads or handles do that, make them smaller or its material stiffer, "
              "or cut it into parts that welds join; if not, its motion is unstable: make "

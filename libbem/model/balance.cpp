@@ -223,7 +223,7 @@ void set_inertial_balance(BodyModel& model) {
 
 void compute_balance(BodyModel& model) {
   if (model.stiffness) return set_inertial_balance(model);
-  if (model.discretisation.method == SpatialMethod::galerkin) return set_exact_balance(model);
+  if (model.discretisation.is_galerkin()) return set_exact_balance(model);
   constexpr double kAcceptable = 1e-4;
   constexpr int kMostIterations = 300, kPatience = 60;  // bending of thin bodies comes late
   const double tolerance =

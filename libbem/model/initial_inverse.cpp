@@ -14,11 +14,6 @@
 namespace bem {
 namespace {
 
-template <class Stored>
-MatrixView<Stored> view(const Eigen::Matrix<Stored, Eigen::Dynamic, Eigen::Dynamic>& m) {
-  return {m.data(), m.rows(), m.cols(), Eigen::OuterStride<>(m.rows())};
-}
-
 template <class Stored, class T>
 std::unique_ptr<MatrixFamily> store_rows(const BodyModel& model, const DenseMatrix<T>& m,
                                          const CodecOptions& codec, double& error) {
@@ -140,12 +135,6 @@ std::vector<Eigen::MatrixXf> parts(const DenseMatrix<T>& m, Eigen::Index first,
   } else {
     out.emplace_back(m.middleRows(first, count).template cast<float>());
   }
-  return out;
-}
-
-std::vector<MatrixView<float>> views(const std::vector<Eigen::MatrixXf>& matrices) {
-  std::vector<MatrixView<float>> out;
-  for (const Eigen::MatrixXf& m : matrices) out.push_back(view(m));
   return out;
 }
 

@@ -42,7 +42,7 @@ double initial_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
 
 /// Rows that the Galerkin method assembles together.
 double row_buffer_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
-  if (o.discretisation.method != SpatialMethod::galerkin) return 0;
+  if (!o.discretisation.is_galerkin()) return 0;
   return galerkin_row_bytes(static_cast<int>(g.nodes.vertices.size()),
                             LaneLayout(o.discretisation.scheme, o.discretisation.history_length),
                             assembly_precision(o));
@@ -78,7 +78,7 @@ StoredEstimate estimate_stored(const BodyGeometry& g, const PrecomputeOptions& o
     out = sample_compression(g, o);
   } else {
     const Counts c = counts_of(o);
-    const bool inertial = c.lags > 0 && o.discretisation.method == SpatialMethod::galerkin;
+    const bool inertial = c.lags > 0 && o.discretisation.is_galerkin();
     out.bytes = o.codec.codec->expected_bytes(
         square(g) * (c.kinds * (c.lags + c.parts) + (inertial ? 1 : 0)), o.codec);
   }

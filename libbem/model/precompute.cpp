@@ -30,7 +30,7 @@ double automatic_window(const BodyModel& model) {
   throw Error(ErrorCode::numerical,
               "motions grow by a factor of " + std::to_string(growth) +
                   " per step, and a window that prevents it would leave nothing of them; use " +
-                  (d.method == SpatialMethod::galerkin ? "" : "--discretisation galerkin or ") +
+                  (d.is_galerkin() ? "" : "--discretisation galerkin or ") +
                   "a larger --dt (a shear wave goes " +
                   std::to_string(d.material.shear_speed() * d.dt / edge) +
                   " of the longest edge in a step; sharp edges with a Poisson ratio near 0.5 need "

@@ -105,7 +105,7 @@ typename SlabAssembler<T>::Norms SlabAssembler<T>::Norms::root(double scale) con
 template <class T>
 std::unique_ptr<SlabAssembler<T>> make_slab_assembler(BodyModel& model, AssemblyPrecision precision,
                                                       bool whole) {
-  if (model.discretisation.method == SpatialMethod::galerkin)
+  if (model.discretisation.is_galerkin())
     return std::make_unique<GalerkinSlabs<T>>(model, precision,
                                               whole ? MatrixForm::general : MatrixForm::symmetric);
   return std::make_unique<CollocationSlabs<T>>(model, precision);

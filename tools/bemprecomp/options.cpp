@@ -28,8 +28,9 @@ struct Typed {
   Options options;
   std::string info, verify;
   std::vector<std::string> diff;
-  std::string window = "auto", model = "dynamic", codec = "lowrank", corner_angle = "auto",
-              precision = "float32", inverse = "auto", damping = "off";
+  std::string method = choice_name(Options().method), window = "auto", model = "dynamic",
+              codec = "lowrank", corner_angle = "auto", precision = "float32", inverse = "auto",
+              damping = "off";
   std::optional<double> codec_tolerance, compression_ratio;
   bool precision_given = false;
 };
@@ -43,10 +44,10 @@ void add_matrix_options(CLI::App& app, Typed& t) {
          "--scheme", o.scheme,
          "radau2, radau3, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2; --model static: bdf1)")
       ->type_name("NAME");
-  app.add_option("--discretisation", o.method,
+  app.add_option("--discretisation", t.method,
                  "in space: galerkin, which neither stiffens bodies nor lets motions grow, or "
                  "collocation, the paper's (" +
-                     o.method + ")")
+                     t.method + ")")
       ->type_name("NAME");
   app.add_flag("--measure-growth", o.measure_growth,
                "with galerkin, too, measure how much motions of the free body grow per step "
@@ -166,11 +167,10 @@ double parse_window(const std::string& text) {
 
 /// The tractions of the Galerkin method are wrong by much where those of a held face reach over its
 /// edge; collocation remains the paper's.
-std::optional<double> parse_corner_angle(const std::string& text, const std::string& method) {
+std::optional<double> parse_corner_angle(const std::string& text, SpatialMethod method) {
   constexpr double kGalerkin = 40;
   if (text == "auto")
-    return method == spatial_method_name(SpatialMethod::galerkin) ? std::optional(kGalerkin)
-                                                                  : std::nullopt;
+    return method == SpatialMethod::galerkin ? std::optional(kGalerkin) : std::nullopt;
   if (text == "none") return std::nullopt;
   const std::optional<double> degrees = number_of(text);
   if (degrees && *degrees > 0 && *degrees < 180) return degrees;
@@ -227,7 +227,6 @@ void check_inputs(const Options& o) {
   if (o.dt) positive("--dt", *o.dt);
   positive("--mesh-scale", o.mesh_scale);
   const Scheme scheme = Scheme::parse(o.scheme);
-  parse_spatial_method(o.method);
   if (o.model == ModelKind::quasistatic) check_static(o, scheme);
   if (o.history && o.history_tolerance) refuse("use either --history or --history-tol");
   if (o.history) number_in("--history", *o.history, 1, 100000);
@@ -268,6 +267,7 @@ Options checked(const CLI::App& app, Typed& t) {
     t.precision_given = given("--precision") > 0;
     o.codec = parse_codec(t);
     if (o.scheme.empty()) o.scheme = o.model == ModelKind::quasistatic ? "bdf1" : "radau2";
+    o.method = parse_choice<SpatialMethod>("--discretisation", t.method);
     o.method_given = given("--discretisation") > 0;
     o.corners_given = t.corner_angle != "auto";
     o.corner_angle_deg = parse_corner_angle(t.corner_angle, o.method);
@@ -286,7 +286,7 @@ std::string Options::canonical_text() const {
   if (model == ModelKind::rigid) return "--model rigid";
   std::string text = "--scheme " + Scheme::parse(scheme).name();
   const bool dynamic = model == ModelKind::dynamic;
-  if (method != "collocation") text += " --discretisation " + method;
+  if (method != SpatialMethod::collocation) text += " --discretisation " + choice_name(method);
   if (dynamic) text += " --window " + (window == 0 ? "auto" : to_text(window));
   if (history) text += " --history " + std::to_string(*history);
   if (history_tolerance) text += " --history-tol " + to_text(*history_tolerance);
@@ -300,7 +300,7 @@ std::string Options::canonical_text() const {
 }
 
 void Options::use_collocation() {
-  method = spatial_method_name(SpatialMethod::collocation);
+  method = SpatialMethod::collocation;
   if (!corners_given) corner_angle_deg = parse_corner_angle("auto", method);
 }
 

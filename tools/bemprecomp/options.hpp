@@ -18,8 +18,8 @@ struct Options {
   std::string mesh, material, output;
   std::optional<double> dt;  ///< [s]; else the material's
   ModelKind model = ModelKind::dynamic;
-  std::string scheme;                                ///< a name that Scheme::parse() knows
-  std::string method = "galerkin";                   ///< a name that parse_spatial_method() knows
+  std::string scheme;  ///< a name that Scheme::parse() knows
+  SpatialMethod method = SpatialMethod::galerkin;
   bool method_given = false, corners_given = false;  ///< or they are the defaults
   bool measure_growth = false;
   double window = 0;  ///< as PrecomputeOptions: 0 is "auto"

@@ -36,7 +36,7 @@ double seconds_of(const std::function<void()>& work) {
 /// Around a cavity the equations of the Galerkin method hold for any rigid motion of its surface:
 /// such bodies are left to collocation.
 void settle_method(const Surface& surface, Options& o, std::vector<std::string>& warnings) {
-  if (o.model == ModelKind::rigid || parse_spatial_method(o.method) != SpatialMethod::galerkin ||
+  if (o.model == ModelKind::rigid || o.method != SpatialMethod::galerkin ||
       surface_components(surface.nodes).size() == 1)
     return;
   if (o.method_given)
@@ -157,7 +157,7 @@ void plan_history(const Options& o, Plan& plan) {
                                       " is too short: a shear wave takes " +
                                       to_text(std::round(plan.lam)) +
                                       " steps across the body; leave it away or use a larger --dt");
-  if (d.method == SpatialMethod::galerkin && d.history_length < std::floor(plan.lam + 2))
+  if (d.is_galerkin() && d.history_length < std::floor(plan.lam + 2))
     plan.warnings.push_back("the history of " + std::to_string(d.history_length) +
                             " steps is shorter than the " + to_text(std::round(plan.lam)) +
                             " steps that a shear wave takes across the body: motions may grow");
@@ -207,8 +207,8 @@ Plan make_plan(Options& o) {
   plan.options.window = o.window;
   if (o.model == ModelKind::dynamic) d.dt = time_step(o, d.material);
   plan.geometry = read_body(o, d.material.density, plan.warnings);
-  d.method = parse_spatial_method(o.method);
-  plan.options.measure_growth = d.method == SpatialMethod::collocation || o.measure_growth;
+  d.method = o.method;
+  plan.options.measure_growth = !d.is_galerkin() || o.measure_growth;
   plan_storage(o, plan);
   if (o.model == ModelKind::dynamic)
     plan_history(o, plan);

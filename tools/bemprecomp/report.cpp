@@ -53,7 +53,7 @@ Json scheme_json(const Discretisation& d, double window) {
   json.update({{"history_length", d.history_length},
                {"window", window},
                {"quadrature_tolerance", d.quadrature_tolerance}});
-  json["discretisation"] = spatial_method_name(d.method);
+  json["discretisation"] = choice_name(d.method);
   if (d.damping.time > 0) json["damping_time"] = d.damping.time;
   return json;
 }
@@ -207,7 +207,7 @@ void print_matrices(Table& table, const Archive& archive) {
   const ModelReport& r = archive.report();
   print_scheme(table, d, r.lam);
   const bool dynamic = archive.kind() == ModelKind::dynamic;
-  table.line("discretisation", spatial_method_name(d.method));
+  table.line("discretisation", choice_name(d.method));
   if (dynamic) table.line("window", archive.window());
   if (d.damping.time > 0)
     table.line("damping", "Kelvin-Voigt, retardation time ", d.damping.time, " s");

@@ -33,7 +33,7 @@ std::string damping_text(const BodyModel& model) {
 /// Empty if motions do not grow noticeably.
 std::string growth_warning(const BodyModel& model) {
   const double growth = model.report.growth, left = growth * model.window;
-  const bool galerkin = model.discretisation.method == SpatialMethod::galerkin;
+  const bool galerkin = model.discretisation.is_galerkin();
   const std::string cure = std::string(galerkin ? "" : "--discretisation galerkin, ") +
                            "a larger --dt, a smaller theta, or a finer mesh" + damping_text(model);
   if (left > kNoticeableGrowth)

@@ -23,13 +23,6 @@ std::vector<Eigen::MatrixXf> rows_of(const MatrixFamily& family, int first, int 
   return out;
 }
 
-std::vector<MatrixView<float>> views(const std::vector<Eigen::MatrixXf>& matrices) {
-  std::vector<MatrixView<float>> out;
-  for (const Eigen::MatrixXf& m : matrices)
-    out.emplace_back(m.data(), m.rows(), m.cols(), Eigen::OuterStride<>(m.rows()));
-  return out;
-}
-
 /// Frobenius norm of all matrices together.
 double norm_of(const MatrixFamily& family) {
   std::vector<double> nodes(family.rows() / 3);
@@ -69,9 +62,8 @@ std::unique_ptr<MatrixFamily> recode(const MatrixFamily& family, MatrixForm form
 
 std::vector<NamedFamily> families_of(BodyModel& model) {
   ModelReport::CodecErrors& e = model.report.codec_errors;
-  const MatrixForm of_h = model.discretisation.method == SpatialMethod::galerkin
-                              ? MatrixForm::symmetric
-                              : MatrixForm::general;
+  const MatrixForm of_h =
+      model.discretisation.is_galerkin() ? MatrixForm::symmetric : MatrixForm::general;
   const MatrixForm of_inverse = model.kind == ModelKind::quasistatic ? MatrixForm::general : of_h;
   std::vector<NamedFamily> out = {{"h", of_h, &model.h, &e.h}};
   if (model.g) out.push_back({"g", MatrixForm::general, &model.g, &e.g});

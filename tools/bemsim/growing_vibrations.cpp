@@ -41,7 +41,7 @@ void GrowingVibrations::record(const Simulation& simulation) {
   for (Watched& w : watched_) {
     const Body& body = simulation.bodies()[w.body];
     const BodyModel& model = body.model();
-    if (!model.has_history() || model.discretisation.method == SpatialMethod::galerkin) continue;
+    if (!model.has_history() || model.discretisation.is_galerkin()) continue;
     if (body.contact_nodes().empty() && simulation.time() > w.quiet_from)
       w.watch.add(body.displacement());
     else
