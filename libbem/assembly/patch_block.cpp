@@ -271,9 +271,9 @@ void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& 
 template <class T>
 void PatchBlock<T>::add(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
                         const SurfacePatch& y, const LaneTable<T>& lanes, bool with_h) {
-  const double distance = patch_distance(x, y), edge = std::max(x.longest_edge, y.longest_edge);
+  const double apart = distance(x.box, y.box), edge = std::max(x.longest_edge, y.longest_edge);
   const auto far = [&](KernelPart part) {
-    return pairs.quadrature().midpoints_suffice(distance, edge, part);
+    return pairs.quadrature().midpoints_suffice(apart, edge, part);
   };
   add_dynamic(pairs, x, wanted, y, lanes, with_h, far(KernelPart::dynamic_part));
   if (far(KernelPart::static_part))

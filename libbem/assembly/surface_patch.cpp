@@ -69,11 +69,9 @@ SurfacePatch make_patch(const TriangleMesh& mesh, const EdgeReconstruction& reco
   p.nodes = sorted_unique(std::move(p.nodes));
   p.shape_count = static_cast<int>(p.hats.size() + edges.size());
 
-  p.low = p.high = mesh.vertices[p.hats[0]];
-  for (int v : p.hats) {
-    p.low = p.low.cwiseMin(mesh.vertices[v]);
-    p.high = p.high.cwiseMax(mesh.vertices[v]);
-  }
+  std::vector<Vec3> corners;
+  for (int v : p.hats) corners.push_back(mesh.vertices[v]);
+  p.box = bounding_box(corners);
   p.midpoints.resize(edges.size());
   for (int t : p.triangles) {
     const double part = triangle_area(mesh, mesh.triangles[t]) / 3;
@@ -176,14 +174,9 @@ std::vector<SurfacePatch> make_patches(const TriangleMesh& mesh,
 SurfacePatch part_of_patch(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction,
                            const SurfacePatch& patch, std::vector<int> triangles) {
   SurfacePatch part = make_patch(mesh, reconstruction, std::move(triangles));
-  part.low = patch.low;
-  part.high = patch.high;
+  part.box = patch.box;
   part.longest_edge = patch.longest_edge;
   return part;
-}
-
-double patch_distance(const SurfacePatch& a, const SurfacePatch& b) {
-  return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm();
 }
 
 }  // namespace bem

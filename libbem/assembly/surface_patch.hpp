@@ -40,7 +40,7 @@ struct SurfacePatch {
   /// nodes x midpoints.
   std::array<Eigen::MatrixXd, 3> curls_at;
 
-  Vec3 low, high;  ///< box
+  BoundingBox box;
   double longest_edge = 0;
 };
 
@@ -53,8 +53,5 @@ std::vector<SurfacePatch> make_patches(const TriangleMesh& mesh,
 /// depends on them does not depend on which triangles are asked for.
 SurfacePatch part_of_patch(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction,
                            const SurfacePatch& patch, std::vector<int> triangles);
-
-/// Distance of the boxes [m].
-double patch_distance(const SurfacePatch& a, const SurfacePatch& b);
 
 }  // namespace bem

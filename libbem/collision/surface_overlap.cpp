@@ -104,8 +104,8 @@ double common_ball(const SignedDistance& a, const SignedDistance& b, double tole
       const Vec3 x = centre + depth * inward;
       return std::min(-a(x), -b(x));
     };
-    const Vec3 about = Vec3::Constant(tolerance);  // the centre may lie in a side of the box
-    const bool in_box = overlap(b.tree().nodes()[0].box, {centre - about, centre + about});
+    // the centre may lie in a side of the box
+    const bool in_box = overlap(b.tree().nodes()[0].box, widened({centre, centre}, tolerance));
     if (!in_box || std::abs(b(centre)) > tolerance || radius(least) <= tolerance) continue;
     for (double depth = least; depth < size; depth *= 2) {
       const Vec3 x = centre + depth * inward;

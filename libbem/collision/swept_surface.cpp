@@ -10,11 +10,6 @@ namespace {
 constexpr double kSlack = 0.5;    ///< of the reach
 constexpr double kFlat = 0.5e-4;  ///< [rad]; contacts ask for more
 
-bool contains(const BoundingBox& outer, const BoundingBox& inner) {
-  return (outer.min.array() <= inner.min.array()).all() &&
-         (inner.max.array() <= outer.max.array()).all();
-}
-
 std::vector<Vec3> normals_of(const std::vector<Triangle>& triangles, const std::vector<Vec3>& x) {
   std::vector<Vec3> normals;
   normals.reserve(triangles.size());
@@ -36,7 +31,7 @@ void SweptSurface::sweep(const std::vector<Vec3>& start, const std::vector<Vec3>
   start_ = start;
   end_ = end;
   ++motion_version_;
-  const Vec3 wide = Vec3::Constant(0.5 * reach), slack = Vec3::Constant(kSlack * reach);
+  const Vec3 wide = Vec3::Constant(0.5 * reach);
   vertex_boxes_.resize(start.size());
   for (std::size_t v = 0; v < start.size(); ++v)
     vertex_boxes_[v] = {start[v].cwiseMin(end[v]) - wide, start[v].cwiseMax(end[v]) + wide};
@@ -45,7 +40,7 @@ void SweptSurface::sweep(const std::vector<Vec3>& start, const std::vector<Vec3>
   if (is_within_slack()) return;
   ++boxes_version_;
   wide_boxes_ = vertex_boxes_;
-  for (BoundingBox& b : wide_boxes_) b = {b.min - slack, b.max + slack};
+  for (BoundingBox& b : wide_boxes_) b = widened(b, kSlack * reach);
   box_ = wide_boxes_.empty() ? BoundingBox() : wide_boxes_.front();
   for (const BoundingBox& b : wide_boxes_) extend(box_, b);
 }

@@ -1,7 +1,7 @@
 #include "compress/block_partition.hpp"
 
 #include "mesh/bisection.hpp"
-#include "mesh/triangle_mesh.hpp"
+#include "mesh/bounding_box.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -15,12 +15,7 @@ struct Cluster {
   BoundingBox box;
 
   int size() const { return end - begin; }
-  double diameter() const { return (box.max - box.min).norm(); }
 };
-
-double distance(const BoundingBox& a, const BoundingBox& b) {
-  return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm();
-}
 
 class Partition {
  public:
@@ -43,12 +38,11 @@ class Partition {
       const int middle = begin + first_half(c.size());
       c.left = build(begin, middle);
       c.right = build(middle, end);
-      const BoundingBox &a = clusters_[c.left].box, &b = clusters_[c.right].box;
-      c.box = {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
+      c.box = clusters_[c.left].box;
+      extend(c.box, clusters_[c.right].box);
     } else {
       c.box = {nodes_[begin], nodes_[begin]};
-      for (int i = begin; i < end; ++i)
-        c.box = {c.box.min.cwiseMin(nodes_[i]), c.box.max.cwiseMax(nodes_[i])};
+      for (int i = begin; i < end; ++i) extend(c.box, {nodes_[i], nodes_[i]});
     }
     clusters_[index] = c;
     return index;
@@ -71,8 +65,8 @@ class Partition {
 
   void divide(int row, int column, std::vector<NodeBlock>& blocks) const {
     const Cluster &r = clusters_[row], &c = clusters_[column];
-    const bool far =
-        std::min(r.diameter(), c.diameter()) <= options_.admissible * distance(r.box, c.box);
+    const bool far = std::min(r.box.diagonal(), c.box.diagonal()) <=
+                     options_.admissible * distance(r.box, c.box);
     if (far || (r.left < 0 && c.left < 0)) {
       blocks.push_back({r.begin, r.end, c.begin, c.end, far});
     } else if (c.left >= 0 && (r.left < 0 || c.size() >= r.size())) {

@@ -1,21 +1,11 @@
 #pragma once
 
-#include "mesh/triangle_mesh.hpp"
+#include "mesh/bounding_box.hpp"
 
 #include <utility>
 #include <vector>
 
 namespace bem {
-
-inline bool overlap(const BoundingBox& a, const BoundingBox& b) {
-  return a.min[0] <= b.max[0] && b.min[0] <= a.max[0] && a.min[1] <= b.max[1] &&
-         b.min[1] <= a.max[1] && a.min[2] <= b.max[2] && b.min[2] <= a.max[2];
-}
-
-inline void extend(BoundingBox& box, const BoundingBox& other) {
-  box.min = box.min.cwiseMin(other.min);
-  box.max = box.max.cwiseMax(other.max);
-}
 
 /// Binary tree of axis-aligned boxes over the triangles of a mesh, or over other things that have
 /// boxes, halved by the longest axis of their centres. Built once; moving vertices refit the boxes

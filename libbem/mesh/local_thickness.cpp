@@ -15,8 +15,7 @@ std::vector<double> local_thickness(const TriangleMesh& mesh) {
     centres.push_back(triangle_centroid(mesh, t));
     normals.push_back(triangle_normal(mesh, t));
     edges.push_back(longest_edge(mesh, t));
-    const Vec3 reach = Vec3::Constant(edges.back());
-    boxes.push_back({centres.back() - reach, centres.back() + reach});
+    boxes.push_back(widened({centres.back(), centres.back()}, edges.back()));
   }
   std::vector<double> thickness(mesh.triangles.size(), 1);
   const auto see = [&](int of, const Vec3& apart) {

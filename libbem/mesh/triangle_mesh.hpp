@@ -1,7 +1,8 @@
 #pragma once
 
-#include "base/types.hpp"
+#include "mesh/bounding_box.hpp"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -22,25 +23,8 @@ inline TriangleMesh scaled(TriangleMesh mesh, const Vec3& scale) {
   return mesh;
 }
 
-/// Axis-aligned box [m].
-struct BoundingBox {
-  Vec3 min = Vec3::Zero();
-  Vec3 max = Vec3::Zero();
-
-  Vec3 centre() const { return 0.5 * (min + max); }
-  double diagonal() const { return (max - min).norm(); }
-};
-
-/// Smallest box around the points; the box of no points is the origin. O(n).
-inline BoundingBox bounding_box(const std::vector<Vec3>& points) {
-  BoundingBox box;
-  if (points.empty()) return box;
-  box.min = box.max = points.front();
-  for (const Vec3& p : points) {
-    box.min = box.min.cwiseMin(p);
-    box.max = box.max.cwiseMax(p);
-  }
-  return box;
+inline std::array<Vec3, 3> triangle_corners(const TriangleMesh& mesh, const Triangle& t) {
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
 /// Area [m^2] times unit normal of the triangle a, b, c (counter-clockwise seen from its tip).
