@@ -1,6 +1,6 @@
 #include "assembly/pair_quadrature.hpp"
 
-#include "assembly/panel_quadrature.hpp"
+#include "mesh/closest_points.hpp"
 #include "mesh/local_thickness.hpp"
 #include "quadrature/triangle_rules.hpp"
 
@@ -24,17 +24,6 @@ constexpr double kVeryThin = 0.1;      // below kThinBody
 constexpr double kThinnest = 0.01;     // that more exact rules are made for
 constexpr double kWavesWhereThin = 2;  // up to so many times the wave number
 
-double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 u = b - a, v = d - c, w = a - c;
-  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), uw = u.dot(w),
-               vw = v.dot(w);
-  const double det = uu * vv - uv * uv;
-  double s = det > 1e-12 * uu * vv ? std::clamp((uv * vw - vv * uw) / det, 0.0, 1.0) : 0.0;
-  const double t = std::clamp((uv * s + vw) / vv, 0.0, 1.0);
-  s = std::clamp((uv * t - uw) / uu, 0.0, 1.0);
-  return (w + s * u - t * v).norm();
-}
-
 std::vector<PairPoint> product_rule(const TriangleRule& x, const TriangleRule& y) {
   std::vector<PairPoint> out;
   for (int i = 0; i < x.size; ++i)
@@ -49,17 +38,6 @@ std::vector<PairPoint> product_rule(const TriangleRule& x, const TriangleRule& y
 }
 
 }  // namespace
-
-double triangle_distance(const Vec3* a, const Vec3* b) {
-  double distance = (a[0] - b[0]).norm();
-  for (int i = 0; i < 3; ++i) {
-    distance = std::min({distance, point_triangle_distance(a[i], b[0], b[1], b[2]),
-                         point_triangle_distance(b[i], a[0], a[1], a[2])});
-    for (int j = 0; j < 3; ++j)
-      distance = std::min(distance, segment_distance(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]));
-  }
-  return distance;
-}
 
 PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, double wave_number)
     : mesh_(mesh),
@@ -151,8 +129,7 @@ PairQuadrature::Part PairQuadrature::touching_part(int tx, int ty, KernelPart ke
 }
 
 std::array<Vec3, 3> PairQuadrature::corners(int triangle) const {
-  const Triangle& t = mesh_.triangles[triangle];
-  return {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
+  return triangle_corners(mesh_, mesh_.triangles[triangle]);
 }
 
 /// The rules of a pair that does not touch. Far from each other a lower bound of the distance is
@@ -163,7 +140,7 @@ std::optional<std::array<int, 2>> PairQuadrature::unsplit_rules(int tx, int ty,
   const Panel &x = panels_[tx], &y = panels_[ty];
   double distance = (x.centre - y.centre).norm() - x.radius - y.radius;
   if (distance < kFar * std::max(x.longest_edge, y.longest_edge)) {
-    distance = triangle_distance(corners(tx).data(), corners(ty).data());
+    distance = triangle_distance(corners(tx), corners(ty));
   }
   const double waves = wave_number(tx, ty);
   const int rule_x = rule_at(distance, x.longest_edge, part, waves),
@@ -199,7 +176,7 @@ void PairQuadrature::for_each_part(int tx, int ty, KernelPart kernel,
   while (!stack.empty()) {
     const Pair pair = stack.back();
     stack.pop_back();
-    const double distance = triangle_distance(pair.x.corners().data(), pair.y.corners().data());
+    const double distance = triangle_distance(pair.x.corners(), pair.y.corners());
     const auto rule_of = [&](const TriangleCell& cell) {
       const int rule = rule_at(distance, cell.longest_edge(), kernel, waves);
       return rule < 0 && pair.depth >= kDeepest ? kTriangleRuleCount - 1 : rule;

@@ -124,7 +124,4 @@ class PairQuadrature {
   std::vector<PairPoint> products_[kTriangleRuleCount][kTriangleRuleCount];
 };
 
-/// Distance of two triangles that do not touch [m].
-double triangle_distance(const Vec3* a, const Vec3* b);
-
 }  // namespace bem

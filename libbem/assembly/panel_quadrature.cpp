@@ -1,29 +1,15 @@
 #include "assembly/panel_quadrature.hpp"
 
+#include "mesh/closest_points.hpp"
+
 #include <algorithm>
-#include <cmath>
 
 namespace bem {
 namespace {
 
 constexpr int kDeepest = 12;  // a vertex closer than 1e-4 edges is integrated with the finest rule
 
-double segment_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 e = b - a;
-  const double t = std::clamp((p - a).dot(e) / e.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * e).norm();
-}
-
 }  // namespace
-
-double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 n = (b - a).cross(c - a);
-  const bool inside = (b - a).cross(p - a).dot(n) >= 0 && (c - b).cross(p - b).dot(n) >= 0 &&
-                      (a - c).cross(p - c).dot(n) >= 0;
-  if (inside) return std::abs((p - a).dot(n)) / n.norm();
-  return std::min(
-      {segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)});
-}
 
 void PointBatch::pad() {
   for (int q = size; q < padded_size(); ++q)

@@ -129,7 +129,4 @@ class PanelQuadrature {
   std::vector<Panel> panels_;
 };
 
-/// Distance from a point to a triangle [m].
-double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
-
 }  // namespace bem

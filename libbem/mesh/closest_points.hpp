@@ -27,4 +27,18 @@ struct LinePair {
 
 LinePair closest_on_lines(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& t);
 
+/// Distance of a point from a segment between two different points [m].
+double point_segment_distance(const Vec3& p, const Vec3& a, const Vec3& b);
+
+/// Distance of a point from a triangle [m]. Above the face it is that from the plane, which is as
+/// exact for a small distance as for a large one; the difference to closest_on_triangle() is only
+/// as exact as the places are.
+double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Distance of the segments from p to q and from r to t [m]; none of them is a point.
+double segment_distance(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& t);
+
+/// Distance of two triangles that do not cut through each other [m].
+double triangle_distance(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
+
 }  // namespace bem

@@ -44,14 +44,6 @@ TEST_CASE("points of every panel integrate linear functions exactly, near, far a
   }
 }
 
-TEST_CASE("distance of a point from a triangle") {
-  const Vec3 a(0, 0, 0), b(2, 0, 0), c(0, 2, 0);
-  CHECK(point_triangle_distance(Vec3(0.5, 0.5, 3), a, b, c) == Approx(3));
-  CHECK(point_triangle_distance(Vec3(-3, 0, 4), a, b, c) == Approx(5));
-  CHECK(point_triangle_distance(Vec3(2, 2, 0), a, b, c) == Approx(std::sqrt(2.0)));
-  CHECK(point_triangle_distance(Vec3(1, -2, 0), a, b, c) == Approx(2));
-}
-
 namespace {
 
 /// Kernels integrated over one triangle, and their static sizes, which the tolerance refers to.

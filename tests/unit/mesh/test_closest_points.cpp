@@ -67,3 +67,55 @@ TEST_CASE("lines come closest where their connection is normal to both") {
   CHECK(closest_on_lines(Vec3::Zero(), x, y, y + x).sine == 0);
   CHECK(closest_on_lines(Vec3::Zero(), x, y, y).sine == 0);
 }
+
+TEST_CASE("distance of a point from a triangle") {
+  const Vec3 a(0, 0, 0), b(2, 0, 0), c(0, 2, 0);
+  CHECK(point_triangle_distance(Vec3(0.5, 0.5, 3), a, b, c) == Approx(3));
+  CHECK(point_triangle_distance(Vec3(-3, 0, 4), a, b, c) == Approx(5));
+  CHECK(point_triangle_distance(Vec3(2, 2, 0), a, b, c) == Approx(std::sqrt(2.0)));
+  CHECK(point_triangle_distance(Vec3(1, -2, 0), a, b, c) == Approx(2));
+}
+
+TEST_CASE("distance of segments: between inner points, from an end, and of parallel ones") {
+  const Vec3 a(-1, 0, 0), b(1, 0, 0);
+  CHECK(segment_distance(a, b, {0.3, -2, 0.5}, {0.3, 1, 0.5}) == Approx(0.5));
+  CHECK(segment_distance(a, b, {0.3, 1, 0}, {0.3, 4, 7}) == Approx(1));  // one end
+  CHECK(segment_distance(a, b, {4, 4, 0}, {4, 9, 3}) == Approx(5));      // two ends
+  CHECK(segment_distance(a, b, {0.5, 2, 0}, {7, 2, 0}) == Approx(2));    // side by side
+  CHECK(segment_distance(a, b, {4, 0, 4}, {9, 0, 4}) == Approx(5));      // one behind the other
+  CHECK(segment_distance(a, b, {9, 0, 4}, {4, 0, 4}) == Approx(5));
+  CHECK(segment_distance(a, b, {0, -1, 0}, {0, 1, 0}) < 1e-15);
+}
+
+TEST_CASE("distances of segments and triangles beat all sampled points") {
+  std::mt19937_64 generator(3);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 apart(2.1, 0, 0);
+    const std::array<Vec3, 3> x = {random_point(generator), random_point(generator),
+                                   random_point(generator)};
+    const std::array<Vec3, 3> y = {random_point(generator) + apart, random_point(generator) + apart,
+                                   random_point(generator) + apart};
+    constexpr int kSamples = 40;
+    double sampled = 1e9, from_edge = 1e9;
+    for (int k = 0; k <= kSamples; ++k) {
+      const double s = static_cast<double>(k) / kSamples;
+      for (int l = 0; l <= kSamples; ++l) {
+        const double u = static_cast<double>(l) / kSamples;
+        from_edge =
+            std::min(from_edge, (x[0] + s * (x[1] - x[0]) - y[0] - u * (y[1] - y[0])).norm());
+        if (k + l <= kSamples)
+          sampled = std::min(
+              sampled, point_triangle_distance(x[0] + s * (x[1] - x[0]) + u * (x[2] - x[0]), y[0],
+                                               y[1], y[2]));
+      }
+    }
+    const double edges = segment_distance(x[0], x[1], y[0], y[1]);
+    CHECK(edges <= from_edge + 1e-12);
+    CHECK(edges >= from_edge - 0.08);
+    CHECK(edges == Approx(segment_distance(y[1], y[0], x[0], x[1])).margin(1e-12));
+    const double triangles = triangle_distance(x, y);
+    CHECK(triangles <= edges + 1e-12);
+    CHECK(triangles == Approx(triangle_distance(y, x)).margin(1e-12));
+    CHECK(triangles <= sampled + 1e-12);
+  }
+}
