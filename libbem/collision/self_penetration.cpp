@@ -2,29 +2,12 @@
 
 #include "mesh/closest_points.hpp"
 #include "mesh/triangle_mesh.hpp"
+#include "mesh/winding_number.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace bem {
-namespace {
-
-/// Winding number of a closed surface around p [van Oosterom and Strackee 1983].
-double winding_number(const std::vector<Triangle>& triangles, const std::vector<Vec3>& vertices,
-                      const Vec3& p) {
-  double sum = 0;
-  for (const auto& [i, j, k] : triangles) {
-    const Vec3 a = vertices[i] - p, b = vertices[j] - p, c = vertices[k] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum +=
-        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (2 * kPi);
-}
-
-}  // namespace
-
 Penetration deepest_self_penetration(const std::vector<Triangle>& triangles,
                                      const std::vector<Vec3>& vertices, double reach) {
   std::vector<Vec3> normals(vertices.size(), Vec3::Zero()), faces;

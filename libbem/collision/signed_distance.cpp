@@ -1,17 +1,13 @@
 #include "collision/signed_distance.hpp"
 
 #include "collision/moving_surface.hpp"
+#include "mesh/winding_number.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace bem {
 namespace {
-
-double squared_distance(const Vec3& p, const BoundingBox& box) {
-  return (box.min - p).cwiseMax(p - box.max).cwiseMax(0.0).squaredNorm();
-}
 
 /// The triangle nearest to a point.
 class NearestTriangle {
@@ -35,11 +31,11 @@ class NearestTriangle {
  private:
   void visit(int index) {
     const BoundingTree::Node& node = tree_.nodes()[index];
-    if (squared_distance(p_, node.box) >= nearest_) return;
+    if (squared_distance({p_, p_}, node.box) >= nearest_) return;
     if (!node.leaf()) {
       const int first = index + 1;
-      const bool ahead = squared_distance(p_, tree_.nodes()[first].box) <=
-                         squared_distance(p_, tree_.nodes()[node.right].box);
+      const bool ahead = squared_distance({p_, p_}, tree_.nodes()[first].box) <=
+                         squared_distance({p_, p_}, tree_.nodes()[node.right].box);
       visit(ahead ? first : node.right);
       visit(ahead ? node.right : first);
       return;
@@ -79,17 +75,8 @@ double SignedDistance::operator()(const Vec3& p) const {
   return NearestTriangle(tree_, surface, p).signed_distance();
 }
 
-/// By the solid angles of the triangles [Van Oosterom and Strackee 1983].
 bool SignedDistance::surely_contains(const Vec3& p) const {
-  if (!closed_) return true;
-  double sum = 0;
-  for (const Triangle& t : topology_.triangles) {
-    const Vec3 a = (*vertices_)[t[0]] - p, b = (*vertices_)[t[1]] - p, c = (*vertices_)[t[2]] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum +=
-        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (2 * kPi) > 0.5;
+  return !closed_ || winding_number(topology_.triangles, *vertices_, p) > 0.5;
 }
 
 }  // namespace bem

@@ -2,8 +2,8 @@
 
 #include "base/error.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/components.hpp"
 #include "mesh/describe.hpp"
-#include "mesh/orientation.hpp"
 #include "mesh/validate.hpp"
 #include "mesh/weld.hpp"
 
@@ -145,12 +145,12 @@ class ObstacleParts {
   /// Solids get positive volume, cavities negative.
   void turn_outward(TriangleMesh& solid) {
     if (solid.triangles.empty()) return;
-    const std::vector<Component> components = surface_components(solid);
+    std::vector<Component> components = surface_components(solid);
     closed_parts_ = components.size();
-    for (const Component& c : components) {
-      if ((c.depth % 2 == 0) == (c.volume > 0)) continue;
+    for (Component& c : components) {
+      if (c.faces_outward()) continue;
       if (flipped_++ == 0) first_flipped_ = origin_[c.triangles.front()];
-      for (int t : c.triangles) std::swap(solid.triangles[t][1], solid.triangles[t][2]);
+      turn_over(solid, c);
     }
   }
 

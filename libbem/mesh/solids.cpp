@@ -2,14 +2,13 @@
 
 #include "base/error.hpp"
 #include "mesh/describe.hpp"
-#include "mesh/orientation.hpp"
 
 #include <algorithm>
 
 namespace bem {
 
-std::vector<std::vector<int>> find_solids(const TriangleMesh& nodes) {
-  const std::vector<Component> components = surface_components(nodes);
+std::vector<std::vector<int>> find_solids(const Surface& surface) {
+  const std::vector<Component>& components = surface.components;
   std::vector<std::vector<int>> parts(components.size());
   for (std::size_t c = 0; c < components.size(); ++c) {
     const Component& component = components[c];
@@ -26,7 +25,7 @@ std::vector<std::vector<int>> find_solids(const TriangleMesh& nodes) {
 }
 
 void check_single_solid(const Surface& surface, const std::string& source) {
-  const std::vector<std::vector<int>> solids = find_solids(surface.nodes);
+  const std::vector<std::vector<int>> solids = find_solids(surface);
   if (solids.size() <= 1) return;
   throw Error(
       ErrorCode::invalid_input,

@@ -8,9 +8,8 @@
 namespace bem {
 
 /// The separate solids of a closed surface: for each the triangles of its outer shell and of the
-/// cavities in it, ascending; solids in the order of their first triangles. O(n log n), and O(n)
-/// for every pair of parts whose boxes overlap.
-std::vector<std::vector<int>> find_solids(const TriangleMesh& nodes);
+/// cavities in it, ascending; solids in the order of their first triangles. O(n log n).
+std::vector<std::vector<int>> find_solids(const Surface& surface);
 
 /// Throws ErrorCode::invalid_input if the surface has several solids: no material connects them, so
 /// that they cannot share the frame and the matrices of one body. The message names `source` and

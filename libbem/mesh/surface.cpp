@@ -46,7 +46,8 @@ Surface make_surface(TriangleMesh input, const std::string& source_name) {
   check_interruption();
   check_closed_manifold(surface.input, surface.nodes, source_name);
   warn_unused_vertices(surface, source_name, surface.warnings);
-  orient_outward(surface.input, surface.nodes, source_name, surface.warnings);
+  surface.components = surface_components(surface.nodes);
+  orient_outward(surface.input, surface.nodes, surface.components, source_name, surface.warnings);
   check_interruption();
   warn_thin_triangles(surface.input, surface.nodes, source_name, surface.warnings);
   warn_self_intersections(surface, source_name, surface.warnings);

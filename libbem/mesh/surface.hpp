@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/triangle_mesh.hpp"
+#include "mesh/components.hpp"
 
 #include <string>
 #include <vector>
@@ -12,6 +12,7 @@ struct Surface {
   TriangleMesh input;               ///< as read: outputs keep its vertices and faces
   std::vector<int> node_of_vertex;  ///< input vertex -> node, -1 if no triangle uses the vertex
   TriangleMesh nodes;               ///< unique positions; triangles[t] is input's t, facing outward
+  std::vector<Component> components;  ///< of nodes
   std::vector<std::string> warnings;
 };
 

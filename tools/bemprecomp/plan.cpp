@@ -8,7 +8,6 @@
 #include "compress/dense_store.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
-#include "mesh/orientation.hpp"
 #include "mesh/solids.hpp"
 #include "model/model_assembly.hpp"
 #include "scene/material_json.hpp"
@@ -37,7 +36,7 @@ double seconds_of(const std::function<void()>& work) {
 /// such bodies are left to collocation.
 void settle_method(const Surface& surface, Options& o, std::vector<std::string>& warnings) {
   if (o.model == ModelKind::rigid || o.method != SpatialMethod::galerkin ||
-      surface_components(surface.nodes).size() == 1)
+      surface.components.size() == 1)
     return;
   if (o.method_given)
     throw Error(ErrorCode::invalid_input,

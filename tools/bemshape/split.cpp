@@ -43,7 +43,7 @@ void check_not_input(const std::vector<std::string>& names, const std::string& i
 void split_mesh(const SplitOptions& options, Log& log) {
   const Surface surface = make_surface(read_mesh(options.input), options.input);
   for (const std::string& warning : surface.warnings) log.warning(warning);
-  const std::vector<std::vector<int>> solids = find_solids(surface.nodes);
+  const std::vector<std::vector<int>> solids = find_solids(surface);
   const std::vector<std::string> names = file_names(options.pattern, solids.size());
   check_not_input(names, options.input);
   for (std::size_t i = 0; i < solids.size(); ++i) {

@@ -1,5 +1,5 @@
+#include "mesh/components.hpp"
 #include "mesh/obstacle_surface.hpp"
-#include "mesh/orientation.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh_test.hpp"
 

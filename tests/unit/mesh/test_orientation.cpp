@@ -8,46 +8,23 @@ using test::combined;
 
 namespace {
 
-std::vector<int> all_triangles(const TriangleMesh& mesh) {
-  std::vector<int> triangles(mesh.triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) triangles[t] = static_cast<int>(t);
-  return triangles;
-}
-
 std::vector<std::string> orient(TriangleMesh& mesh) {
   const TriangleMesh input = mesh;
   std::vector<std::string> warnings;
-  orient_outward(input, mesh, "a.obj", warnings);
+  std::vector<Component> components = surface_components(mesh);
+  orient_outward(input, mesh, components, "a.obj", warnings);
+  const std::vector<Component> turned = surface_components(mesh);
+  for (std::size_t c = 0; c < turned.size(); ++c) {  // what was known before holds afterwards
+    CHECK(components[c].volume == Approx(turned[c].volume).epsilon(1e-13));
+    CHECK(components[c].depth == turned[c].depth);
+    CHECK(components[c].faces_outward());
+  }
   return warnings;
 }
 
 const TriangleMesh kCube = box({1, 1, 1}, {2, 2, 2});
 
 }  // namespace
-
-TEST_CASE("the winding number tells inside from outside") {
-  const std::vector<int> triangles = all_triangles(kCube);
-  CHECK(winding_number(kCube, triangles, {0.1, 0.2, -0.3}) == Approx(1.0).epsilon(1e-12));
-  CHECK(std::abs(winding_number(kCube, triangles, {0.1, 0.2, 0.8})) < 1e-12);
-  CHECK(winding_number(kCube, triangles, {0.1, 0.2, 0.5 - 1e-9}) == Approx(1.0).epsilon(1e-6));
-}
-
-TEST_CASE("components know their size and depth") {
-  TriangleMesh mesh = combined(kCube, kCube, 0.5, Vec3::Zero(), true);
-  mesh = combined(mesh, kCube, 0.25, Vec3::Zero(), false);
-  mesh = combined(mesh, kCube, 1.0, {3, 0, 0}, false);
-  const std::vector<Component> components = surface_components(mesh);
-  REQUIRE(components.size() == 4);
-  const double volumes[] = {1, -0.125, 1.0 / 64, 1};
-  const int depths[] = {0, 1, 2, 0};
-  for (int c = 0; c < 4; ++c) {
-    CHECK(components[c].volume == Approx(volumes[c]).epsilon(1e-13));
-    CHECK(components[c].depth == depths[c]);
-    CHECK(components[c].triangles.size() == 48);
-    CHECK(components[c].triangles.front() == 48 * c);
-  }
-  CHECK(components[3].area == Approx(6.0).epsilon(1e-13));
-}
 
 TEST_CASE("a body inside out is turned, with a warning") {
   TriangleMesh mesh = combined({}, kCube, 1.0, Vec3::Zero(), true);

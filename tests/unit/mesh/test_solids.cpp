@@ -19,7 +19,7 @@ TEST_CASE("a cavity belongs to the solid around it, a solid in a cavity is anoth
   mesh = combined(mesh, kCube, 1.0, {3, 0, 0}, false);
   mesh = combined(mesh, kCube, 0.25, Vec3::Zero(), false);  // in the cavity
   const Surface surface = make_surface(mesh, "a.obj");
-  const auto solids = find_solids(surface.nodes);
+  const auto solids = find_solids(surface);
   REQUIRE(solids.size() == 3);
   CHECK(solids[0].size() == 96);
   CHECK(solids[0].back() == 95);

@@ -1,5 +1,5 @@
 #include "mesh/adjacency.hpp"
-#include "mesh/orientation.hpp"
+#include "mesh/components.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/two_sided.hpp"
 #include "mesh_test.hpp"
