@@ -2,6 +2,7 @@
 
 #include "mesh/triangle_mesh.hpp"
 
+#include <array>
 #include <cstddef>
 
 namespace bem {
@@ -15,10 +16,10 @@ struct SelfIntersections {
 
 /// Do the two triangles cross along a segment? Touching (a common point or edge, one plane) does
 /// not count; lengths below 1e-9 of the longest edge are touching. After Moeller (1997).
-bool triangles_cross(const Vec3 (&a)[3], const Vec3 (&b)[3]);
+bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
 
-/// All crossing pairs of triangles that share no vertex. A tree of bounding boxes is compared with
-/// itself: O(n log n) for a mesh of evenly sized triangles, plus the number of pairs.
+/// All crossing pairs of triangles that share no vertex. O(n log n) for a mesh of evenly sized
+/// triangles, plus the number of pairs.
 SelfIntersections find_self_intersections(const TriangleMesh& nodes);
 
 }  // namespace bem

@@ -6,10 +6,10 @@ using namespace bem;
 
 namespace {
 
-const Vec3 kFlat[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+const std::array<Vec3, 3> kFlat = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
 
 bool crosses_flat(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 other[3] = {a, b, c};
+  const std::array<Vec3, 3> other = {a, b, c};
   CHECK(triangles_cross(kFlat, other) == triangles_cross(other, kFlat));
   return triangles_cross(kFlat, other);
 }
@@ -17,7 +17,6 @@ bool crosses_flat(const Vec3& a, const Vec3& b, const Vec3& c) {
 SelfIntersections brute_force(const TriangleMesh& mesh) {
   SelfIntersections found;
   const int n = static_cast<int>(mesh.triangles.size());
-  const auto& p = mesh.vertices;
   for (int s = 0; s < n; ++s) {
     for (int t = s + 1; t < n; ++t) {
       const Triangle& u = mesh.triangles[s];
@@ -25,7 +24,7 @@ SelfIntersections brute_force(const TriangleMesh& mesh) {
       bool adjacent = false;
       for (int i : u)
         for (int j : v) adjacent = adjacent || i == j;
-      if (adjacent || !triangles_cross({p[u[0]], p[u[1]], p[u[2]]}, {p[v[0]], p[v[1]], p[v[2]]}))
+      if (adjacent || !triangles_cross(triangle_corners(mesh, u), triangle_corners(mesh, v)))
         continue;
       if (found.count++ == 0) {
         found.first = s;
