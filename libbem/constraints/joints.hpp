@@ -5,6 +5,22 @@
 
 namespace bem {
 
+/// Shares that decide what a scene means by its joints. They compare lengths of the scene with
+/// those of its meshes and have nothing to do with the tolerance to which contacts are met.
+struct JointTolerances {
+  /// Of a body's extent: a point of a joint may be so far from the body's surface.
+  static constexpr double off_surface = 0.01;
+  /// Of the shortest edge around a vertex that a weld leaves alone: a vertex of the other body that
+  /// is so near was probably meant to be its partner.
+  static constexpr double nearly = 0.1;
+  /// Of the same edge: so near to the other body's surface the vertex lies on it.
+  static constexpr double on_surface = 1e-3;
+  /// Width over length of a set of points below which they are on one line.
+  static constexpr double thin = 1e-3;
+  /// Of a handle's release time: a step that ends so much later is held, for rounding's sake.
+  static constexpr double release = 1e-9;
+};
+
 /// A point of a body's surface: weights over up to three nodes.
 struct Attachment {
   int body = -1;  ///< -1: a place in the world
@@ -33,31 +49,5 @@ struct Joint {
 /// centre of mass starts.
 std::optional<Holder> holder_motion(const std::vector<const Joint*>& prescribed, const Vec3& centre,
                                     double t, double dt, const StageVector& stage_times);
-
-/// What a weld joins.
-struct WeldPlan {
-  const JointSpec* spec = nullptr;
-  std::size_t joined = 0;  ///< pairs of vertices
-  /// Vertices of either body that have no partner within the tolerance, but one within a tenth of
-  /// the shortest edge around them; and the largest of these distances [m].
-  std::size_t nearly = 0;
-  double farthest = 0;
-  std::size_t alone = 0;  ///< vertices on the other body's surface where it has no vertex
-};
-
-/// All joints of a scene, and the nodes that they act on: by body, ascending.
-struct JointPlan {
-  std::vector<Joint> joints;
-  std::vector<WeldPlan> welds;
-  std::vector<std::vector<JointNode>> nodes;
-};
-
-/// "12 vertices miss a partner by up to 0.001 m".
-std::string nearly_text(const WeldPlan& weld);
-
-/// Fixed vertices, handles, point joints and welds. `geometries`: by body. Throws
-/// ErrorCode::invalid_input, naming the place in the scene, for contradictory selections, points
-/// away from the surface, and welds without common vertices. The plan refers to the scene.
-JointPlan plan_joints(const Scene& scene, const std::vector<const BodyGeometry*>& geometries);
 
 }  // namespace bem

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "algebra/lu.hpp"
-#include "constraints/joints.hpp"
+#include "constraints/joint_plan.hpp"
 #include "constraints/port.hpp"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "constraints/joints.hpp"
+#include "constraints/joint_plan.hpp"
 #include "mesh/obstacle_surface.hpp"
 
 #include <memory>

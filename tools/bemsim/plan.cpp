@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
-#include "constraints/joints.hpp"
+#include "constraints/joint_plan.hpp"
 #include "mesh/describe.hpp"
 #include "scene/motion.hpp"
 #include "scene/selection.hpp"
