@@ -115,13 +115,6 @@ EdgeReconstruction::EdgeReconstruction(const TriangleMesh& mesh)
   rho_.setFromTriplets(entries.begin(), entries.end());
 }
 
-double EdgeReconstruction::largest_row_sum() const {
-  double largest = 0;
-  for (Eigen::Index e = 0; e < rho_.rows(); ++e)
-    largest = std::max(largest, rho_.row(e).cwiseAbs().sum());
-  return largest;
-}
-
 TriangleBasis triangle_basis(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction,
                              int triangle) {
   std::map<int, std::array<double, 6>> weights;

@@ -32,8 +32,6 @@ class EdgeReconstruction {
   const MeshEdges& edges() const { return edges_; }
   /// rho: edges x vertices.
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& coefficients() const { return rho_; }
-  /// max_e sum_j |rho_ej|: how far bubbles may exceed the values that they follow from.
-  double largest_row_sum() const;
 
  private:
   MeshEdges edges_;

@@ -1,6 +1,6 @@
 #include "assembly/pair_integrals.hpp"
 
-#include "kernels/tensors.hpp"
+#include "base/symmetric_matrix.hpp"
 
 namespace bem {
 namespace {

@@ -28,9 +28,4 @@ void accumulate_pair(const LaneTable<float>& table, const PairScales& scales, co
                      const Vec3& n, const PairBatch& batch, PairScratch<float>& scratch,
                      const PairSums<float>& sums);
 
-/// The same in plain scalar code, for tests.
-void accumulate_pair_reference(const LaneTable<double>& table, const PairScales& scales,
-                               const Vec3& m, const Vec3& n, const PairBatch& batch,
-                               const PairSums<double>& sums);
-
 }  // namespace bem

@@ -51,10 +51,6 @@ void accumulate_panel(const LaneTable<float>& table, const KernelScales& scales,
                       const PointBatch& batch, const Vec3& normal, PanelScratch<float>& scratch,
                       float* sums, int functions = kRadialCount);
 
-/// The same in plain scalar code, for tests.
-void accumulate_panel_reference(const LaneTable<double>& table, const KernelScales& scales,
-                                const PointBatch& batch, const Vec3& normal, double* sums);
-
 /// Row blocks that a panel adds to: 3x3 blocks [entry][padded lane] of the three vertices of the
 /// triangle (h: 9 entries, g: 6 entries xx xy xz yy yz zz) and of the body-force columns d, l (9
 /// entries) and m (18).

@@ -4,7 +4,6 @@
 #include "assembly/galerkin_static.hpp"
 #include "assembly/lane_rows.hpp"
 #include "assembly/static_sums.hpp"
-#include "kernels/tensors.hpp"
 
 namespace bem {
 namespace {

@@ -3,7 +3,7 @@
 #include "assembly/translation_identity.hpp"
 #include "base/error.hpp"
 #include "base/interruption.hpp"
-#include "kernels/tensors.hpp"
+#include "base/symmetric_matrix.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "dynamics/body.hpp"
 
 #include "base/error.hpp"
+#include "base/symmetric_matrix.hpp"
 #include "dynamics/rotation.hpp"
-#include "kernels/tensors.hpp"
 
 #include <algorithm>
 #include <cmath>

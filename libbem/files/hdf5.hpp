@@ -85,7 +85,8 @@ class Hdf5File {
   }
   template <class T>
   void write_rows(const std::string& path, std::size_t first, std::size_t rows, const T* data) {
-    write_slab(path, hdf5_type<T>(), 0, first, rows, data);
+    const Part part = part_of_rows(path, first, rows);
+    write_raw(path, hdf5_type<T>(), part.start, part.count, data);
   }
 
   /// Reads the part that begins at `start` with extents `count` to `out`, row-major and dense.
@@ -98,13 +99,8 @@ class Hdf5File {
   }
   template <class T>
   void read_rows(const std::string& path, std::size_t first, std::size_t rows, T* out) const {
-    read_slab(path, hdf5_type<T>(), 0, first, rows, out);
-  }
-  /// All rows of columns first to first + columns - 1 (second extent). In contiguous storage every
-  /// row is a read of its own.
-  template <class T>
-  void read_columns(const std::string& path, std::size_t first, std::size_t columns, T* out) const {
-    read_slab(path, hdf5_type<T>(), 1, first, columns, out);
+    const Part part = part_of_rows(path, first, rows);
+    read_raw(path, hdf5_type<T>(), part.start, part.count, out);
   }
 
   /// Reads a whole dataset, which must have the extents `expected`.
@@ -148,10 +144,10 @@ class Hdf5File {
   std::size_t checked_count(const std::string& path, const Hdf5Dims& expected,
                             std::size_t bytes) const;
   void check_part(const std::string& path, const Hdf5Dims& start, const Hdf5Dims& count) const;
-  void write_slab(const std::string& path, Hdf5Type type, std::size_t axis, std::size_t first,
-                  std::size_t count, const void* data);
-  void read_slab(const std::string& path, Hdf5Type type, std::size_t axis, std::size_t first,
-                 std::size_t count, void* out) const;
+  struct Part {
+    Hdf5Dims start, count;
+  };
+  Part part_of_rows(const std::string& path, std::size_t first, std::size_t rows) const;
   void write_raw(const std::string& path, Hdf5Type type, const Hdf5Dims& start,
                  const Hdf5Dims& count, const void* data);
   void read_raw(const std::string& path, Hdf5Type type, const Hdf5Dims& start,

@@ -70,13 +70,6 @@ std::string to_text(const Hdf5Dims& dims) {
   return text + "]";
 }
 
-constexpr const char* kTooFewExtents = "has too few extents for a part by rows or columns";
-
-Hdf5Dims with(Hdf5Dims dims, std::size_t axis, std::size_t value) {
-  dims[axis] = value;
-  return dims;
-}
-
 Hdf5Handle open_dataset(hid_t file, const std::string& path) {
   return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose};
 }
@@ -236,19 +229,15 @@ void Hdf5File::read_raw(const std::string& path, Hdf5Type type, const Hdf5Dims& 
     fail_in_library(path, "cannot be read");
 }
 
-void Hdf5File::write_slab(const std::string& path, Hdf5Type type, std::size_t axis,
-                          std::size_t first, std::size_t count, const void* data) {
-  const Hdf5Dims whole = dims(path);
-  if (axis >= whole.size()) fail(path, kTooFewExtents);
-  write_raw(path, type, with(Hdf5Dims(whole.size(), 0), axis, first), with(whole, axis, count),
-            data);
-}
-
-void Hdf5File::read_slab(const std::string& path, Hdf5Type type, std::size_t axis,
-                         std::size_t first, std::size_t count, void* out) const {
-  const Hdf5Dims whole = dims(path);
-  if (axis >= whole.size()) fail(path, kTooFewExtents);
-  read_raw(path, type, with(Hdf5Dims(whole.size(), 0), axis, first), with(whole, axis, count), out);
+Hdf5File::Part Hdf5File::part_of_rows(const std::string& path, std::size_t first,
+                                      std::size_t rows) const {
+  Part part;
+  part.count = dims(path);
+  part.start.assign(part.count.size(), 0);
+  if (part.count.empty()) fail(path, "has no rows");
+  part.start[0] = first;
+  part.count[0] = rows;
+  return part;
 }
 
 }  // namespace bem

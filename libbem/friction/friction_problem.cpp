@@ -4,25 +4,6 @@
 
 namespace bem {
 
-FrictionProblem friction_problem(const Eigen::MatrixXd& w, Eigen::VectorXd q, Eigen::VectorXd mu) {
-  FrictionProblem problem;
-  const int n = static_cast<int>(mu.size());
-  require(w.rows() == 3 * n && w.cols() == 3 * n, "the compliance matrix has 3n rows and columns");
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const Mat3 block = w.block<3, 3>(3 * i, 3 * j);
-      if (i != j && block.isZero(0)) continue;
-      problem.columns.push_back(j);
-      problem.blocks.push_back(block);
-    }
-    problem.row_start.push_back(static_cast<int>(problem.columns.size()));
-  }
-  problem.q = std::move(q);
-  problem.mu = std::move(mu);
-  check_problem(problem);
-  return problem;
-}
-
 void check_problem(const FrictionProblem& problem) {
   const int n = problem.contacts();
   require(problem.q.size() == 3 * n, "a friction problem has 3n displacements");

@@ -28,9 +28,6 @@ struct FrictionProblem {
   int contacts() const { return static_cast<int>(mu.size()); }
 };
 
-/// The problem of a full matrix `w` (3n x 3n); blocks that are zero are left out.
-FrictionProblem friction_problem(const Eigen::MatrixXd& w, Eigen::VectorXd q, Eigen::VectorXd mu);
-
 /// Checks the sizes, the order of the columns and the signs of mu; throws ErrorCode::internal.
 void check_problem(const FrictionProblem& problem);
 

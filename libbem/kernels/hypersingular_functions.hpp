@@ -8,8 +8,8 @@ namespace bem {
 
 /// The entire functions of z = s r/c2 that multiply the tensors of the dynamic parts of the
 /// hypersingular kernel, D(s) = D(0) + s^2 Z(s), and of the adjoint double layer kernel, K'(s) =
-/// K'(0) + (s/c2)^2 J(s); see kernels/hypersingular_tensors.hpp. M_n(z), M_n(z1) and e are those of
-/// kernels/moments.hpp.
+/// K'(0) + (s/c2)^2 J(s); see tests/support/galerkin_kernels.hpp. M_n(z), M_n(z1) and e are those
+/// of kernels/moments.hpp.
 enum HypersingularFunction : int {
   kAlpha,
   kBeta,

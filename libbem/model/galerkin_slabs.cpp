@@ -1,7 +1,7 @@
 #include "model/galerkin_slabs.hpp"
 
 #include "base/parallel.hpp"
-#include "kernels/tensors.hpp"
+#include "base/symmetric_matrix.hpp"
 #include "model/rigid_projection.hpp"
 
 #include <algorithm>

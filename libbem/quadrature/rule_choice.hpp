@@ -19,11 +19,9 @@ class RuleChoice {
   /// oscillation: Z = |s|_max * longest edge / c2 (0 for the static kernel).
   int choose(double ratio, double oscillation) const;
 
-  /// Distance ratio beyond which rule `index` reaches the tolerance for the static kernel.
-  double smallest_ratio(int index) const { return smallest_ratio_[index]; }
-
  private:
   double tolerance_;
+  /// Distance ratio beyond which a rule reaches the tolerance for the static kernel.
   std::array<double, kTriangleRuleCount> smallest_ratio_;
   std::array<double, kTriangleRuleCount> largest_oscillation_;
 };

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "assembly/laplace_assembly.hpp"
 #include "mesh/extent.hpp"
+#include "support/laplace_assembly.hpp"
 #include "support/nonlinear_eigenvalues.hpp"
 
 #include <vector>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/error.hpp"
 #include "friction/friction_problem.hpp"
 #include "support/rigid_scene.hpp"
 #include "support/uniform.hpp"
@@ -8,6 +9,27 @@
 #include <vector>
 
 namespace bem::test {
+
+/// The problem of a full matrix `w` (3n x 3n); blocks that are zero are left out.
+inline FrictionProblem friction_problem(const Eigen::MatrixXd& w, Eigen::VectorXd q,
+                                        Eigen::VectorXd mu) {
+  FrictionProblem problem;
+  const int n = static_cast<int>(mu.size());
+  require(w.rows() == 3 * n && w.cols() == 3 * n, "the compliance matrix has 3n rows and columns");
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const Mat3 block = w.block<3, 3>(3 * i, 3 * j);
+      if (i != j && block.isZero(0)) continue;
+      problem.columns.push_back(j);
+      problem.blocks.push_back(block);
+    }
+    problem.row_start.push_back(static_cast<int>(problem.columns.size()));
+  }
+  problem.q = std::move(q);
+  problem.mu = std::move(mu);
+  check_problem(problem);
+  return problem;
+}
 
 /// Points of an elastic half-space (E = 1, nu = 0.3; Boussinesq and Cerruti, own terms of a disc of
 /// the point's share of the area) under a sphere that is pressed down, dragged and turned: points

@@ -1,8 +1,8 @@
 // Identities that hold on every closed flat-triangle mesh at any resolution, up to the error of the
 // quadrature: uniform strain (M40), rigid translation and rotation (M41)-(M43).
-#include "assembly/laplace_assembly.hpp"
 #include "support/bodies.hpp"
 #include "support/lag_matrices.hpp"
+#include "support/laplace_assembly.hpp"
 
 #include <cstdio>
 

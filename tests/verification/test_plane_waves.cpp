@@ -1,6 +1,6 @@
 // Plane waves inside a body: the displacements that H(s) u = G(s) p gives for the exact tractions.
-#include "assembly/laplace_assembly.hpp"
 #include "support/bodies.hpp"
+#include "support/laplace_assembly.hpp"
 
 #include <cstdio>
 

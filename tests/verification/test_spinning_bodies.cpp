@@ -1,8 +1,8 @@
 // Bodies that rotate: stretched by the centrifugal force, deformed by the gyroscopic one when they
 // tumble, and turned as Euler's equations say. Printed figures are quoted in docs/accuracy.md,
 // "Rotating bodies".
+#include "base/symmetric_matrix.hpp"
 #include "dynamics/rotation.hpp"
-#include "kernels/tensors.hpp"
 #include "support/simulate.hpp"
 
 #include <cstdio>

@@ -1,8 +1,8 @@
 // Static limit: what is left of a loaded body when its vibration has decayed. Printed figures are
 // quoted in docs/accuracy.md, "Static limit".
-#include "assembly/laplace_assembly.hpp"
 #include "model/growth.hpp"
 #include "support/lag_matrices.hpp"
+#include "support/laplace_assembly.hpp"
 #include "support/simulate.hpp"
 
 #include <cstdio>

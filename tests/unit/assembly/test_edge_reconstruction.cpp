@@ -9,6 +9,17 @@
 using namespace bem;
 using namespace bem_test;
 
+namespace {
+
+/// max_e sum_j |rho_ej|: how far bubbles may exceed the values that they follow from.
+double largest_row_sum(const TriangleMesh& mesh) {
+  const EdgeReconstruction reconstruction(mesh);
+  const auto& rho = reconstruction.coefficients();
+  return (rho.cwiseAbs() * Eigen::VectorXd::Ones(rho.cols())).maxCoeff();
+}
+
+}  // namespace
+
 TEST_CASE("coefficients of edges agree with the high-precision reference") {
   const json data = load_reference("discretisation.json")["edge_reconstruction"];
   TriangleMesh mesh;
@@ -38,12 +49,11 @@ TEST_CASE("linear fields have no bubbles on any mesh") {
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
       fields.row(static_cast<Eigen::Index>(i)) << 1, mesh.vertices[i].transpose();
     CHECK((reconstruction.coefficients() * fields).cwiseAbs().maxCoeff() < 1e-13);
-    std::printf("largest row sum of the reconstruction: %.2f\n", reconstruction.largest_row_sum());
+    std::printf("largest row sum of the reconstruction: %.2f\n", largest_row_sum(mesh));
   }
   const TriangleMesh beam = centred(box(Vec3(1, 0.2, 0.2), {10, 2, 2}));
-  CHECK(EdgeReconstruction(beam).largest_row_sum() == Approx(1.10).margin(0.01));
-  CHECK(EdgeReconstruction(centred(icosphere(1, 1))).largest_row_sum() ==
-        Approx(0.77).margin(0.01));
+  CHECK(largest_row_sum(beam) == Approx(1.10).margin(0.01));
+  CHECK(largest_row_sum(centred(icosphere(1, 1))) == Approx(0.77).margin(0.01));
 }
 
 TEST_CASE("basis functions of a triangle add up to one") {

@@ -1,7 +1,7 @@
 #include "assembly/galerkin_assembler.hpp"
-#include "assembly/galerkin_laplace.hpp"
 #include "mesh/extent.hpp"
 #include "support/bodies.hpp"
+#include "support/galerkin_laplace.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
-#include "assembly/galerkin_laplace.hpp"
-#include "kernels/tensors.hpp"
+#include "base/symmetric_matrix.hpp"
 #include "support/bodies.hpp"
+#include "support/galerkin_laplace.hpp"
 #include "support/reference.hpp"
 
 #include <catch2/catch.hpp>

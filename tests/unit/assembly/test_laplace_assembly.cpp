@@ -1,6 +1,6 @@
-#include "assembly/laplace_assembly.hpp"
-#include "kernels/tensors.hpp"
+#include "base/symmetric_matrix.hpp"
 #include "support/bodies.hpp"
+#include "support/laplace_assembly.hpp"
 
 #include <catch2/catch.hpp>
 

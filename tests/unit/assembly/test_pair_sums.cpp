@@ -1,4 +1,5 @@
 #include "assembly/pair_sums.hpp"
+#include "support/galerkin_kernels.hpp"
 
 #include <random>
 #include <utility>
@@ -21,6 +22,44 @@ PairSums<T> places(AlignedVector<T>& from, int padded_lanes) {
     for (auto& x : y) x = std::exchange(at, at + 9 * padded_lanes);
   for (auto& x : sums.uniform) x = std::exchange(at, at + 12 * padded_lanes);
   return sums;
+}
+
+/// accumulate_pair() in scalar double precision, one lane at a time, from the tensors.
+void accumulate_pair_reference(const LaneTable<double>& table, const PairScales& scales,
+                               const Vec3& m, const Vec3& n, const PairBatch& batch,
+                               const PairSums<double>& sums) {
+  const std::size_t stride = table.padded_lanes;
+  std::vector<double> values(kHypersingularCount * stride);
+  int fibre = 0;
+  for (int q = 0; q < batch.size; ++q) {
+    if (q == batch.begin[fibre + 1]) ++fibre;
+    const auto shape = [&](bool of_x, int row) {
+      return of_x == batch.x_stays ? batch.staying[row][fibre] : batch.moving[row][q];
+    };
+    const Vec3 r(batch.r[0][q], batch.r[1][q], batch.r[2][q]);
+    const SurfacePair g = surface_pair(Vec3::Zero(), m, r, n);
+    table.evaluate(g.r * scales.lam_per_distance, values.data());
+    for (int lane = 0; lane < table.lanes; ++lane) {
+      HypersingularValues<double> f;
+      for (int k = 0; k < kHypersingularCount; ++k) f[k] = values[k * stride + lane];
+      const Mat3 inertia = inertia_kernel(g, f, scales.density),
+                 adjoint = dynamic_adjoint_kernel(g, f);
+      const Vec3 pressure = pressure_kernel(g, f, scales.kappa);
+      for (int x = 0; x < 6; ++x) {
+        const double weight = shape(true, x + 1);
+        for (int e = 0; e < 9; ++e) {
+          const std::size_t at = e * stride + lane;
+          for (int y = 0; y < 6; ++y)
+            sums.inertia[y][x][at] += weight * shape(false, y + 1) * inertia(e / 3, e % 3);
+          for (int y = 0; y < 3; ++y)
+            sums.adjoint[y][x][at] += weight * shape(false, y + 1) * adjoint(e / 3, e % 3);
+          sums.uniform[x][at] += weight * shape(false, 0) * adjoint(e / 3, e % 3);
+        }
+        for (int e = 0; e < 3; ++e)
+          sums.uniform[x][(9 + e) * stride + lane] += weight * shape(false, 0) * pressure[e];
+      }
+    }
+  }
 }
 
 template <class T>

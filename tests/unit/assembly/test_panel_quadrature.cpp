@@ -1,6 +1,6 @@
 #include "assembly/panel_quadrature.hpp"
-#include "kernels/tensors.hpp"
 #include "support/bodies.hpp"
+#include "support/collocation_kernels.hpp"
 #include "support/reference.hpp"
 
 #include <catch2/catch.hpp>

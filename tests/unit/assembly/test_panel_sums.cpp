@@ -24,9 +24,50 @@ PointBatch random_batch(int size, bool singular) {
   return batch;
 }
 
-}  // namespace
-
-namespace {
+/// accumulate_panel() in scalar double precision, one lane at a time.
+void accumulate_panel_reference(const LaneTable<double>& table, const KernelScales& scales,
+                                const PointBatch& batch, const Vec3& normal, double* sums) {
+  constexpr int kPairs[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
+  const int stride = table.padded_lanes;
+  std::vector<double> values(static_cast<std::size_t>(kRadialCount) * stride);
+  for (int q = 0; q < batch.size; ++q) {
+    const Vec3 y(batch.r[0][q], batch.r[1][q], batch.r[2][q]);
+    const double r = y.norm();
+    const Vec3 h = y / r;
+    const double hn = h.dot(normal);
+    table.evaluate(r * scales.lam_per_distance, values.data());
+    for (int lane = 0; lane < stride; ++lane) {
+      const auto f = [&](int function) {
+        const double rest = batch.singular ? table.static_part(function)[lane] : 0;
+        return values[function * stride + lane] - rest;
+      };
+      const auto add = [&](int sum, double value) { sums[sum * stride + lane] += value; };
+      double weight = 0;
+      for (int a = 0; a < 3; ++a) {
+        const double w = batch.shape_weight[a][q];
+        weight += w;
+        const double u = w * scales.displacement / r, p = w * scales.traction / (r * r);
+        add(kSumA + a, u * f(kRadialA));
+        for (int e = 0; e < 6; ++e) {
+          const double hh = h[kPairs[e][0]] * h[kPairs[e][1]];
+          add(kSumB + 6 * a + e, -u * hh * f(kRadialB));
+          add(kSumS + 6 * a + e, p * hn * hh * f(kRadialS));
+        }
+        for (int e = 0; e < 3; ++e) {
+          add(kSumP + 3 * a + e, p * h[e] * f(kRadialP));
+          add(kSumQ + 3 * a + e, p * h[e] * f(kRadialQ));
+        }
+      }
+      const double body = weight * scales.body_force;
+      for (int e = 0; e < 3; ++e) add(kSumF + e, body * h[e] * f(kRadialF));
+      for (int e = 0; e < 6; ++e)
+        add(kSumFr + e, body * r * h[kPairs[e][0]] * h[kPairs[e][1]] * f(kRadialF));
+      add(kSumM1, -body * hn * f(kRadialM1));
+      add(kSumM0, body * r * f(kRadialM0));
+      add(kSumC0, body * r * f(kRadialC0));
+    }
+  }
+}
 
 /// Worst difference to the reference over all sums and lanes, relative to the largest sum.
 template <class T>

@@ -1,6 +1,6 @@
-#include "assembly/laplace_assembly.hpp"
 #include "support/bodies.hpp"
 #include "support/lag_matrices.hpp"
+#include "support/laplace_assembly.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // Rows with far panels in single precision against the scalar reference, block by block, on meshes
 // that are hard on rounding: thin triangles, lengths in millimetres, far from the origin.
-#include "assembly/laplace_assembly.hpp"
 #include "support/bodies.hpp"
 #include "support/lag_matrices.hpp"
+#include "support/laplace_assembly.hpp"
 
 #include <catch2/catch.hpp>
 #include <hwy/highway.h>

@@ -11,8 +11,8 @@ TEST_CASE("contacts that act on each other form sets") {
   for (int i = 0; i < 5; ++i) w.block<3, 3>(3 * i, 3 * i) = (i + 1) * Mat3::Identity();
   w(0, 12) = 0.5;   // 4 acts on 0, one way only
   w(11, 5) = 0.25;  // 1 acts on 3
-  const FrictionProblem p =
-      friction_problem(w, Eigen::VectorXd::LinSpaced(15, 1, 15), Eigen::VectorXd::Constant(5, 0.3));
+  const FrictionProblem p = test::friction_problem(w, Eigen::VectorXd::LinSpaced(15, 1, 15),
+                                                   Eigen::VectorXd::Constant(5, 0.3));
   CHECK(p.blocks.size() == 7);
   const std::vector<ContactSet> sets = connected_sets(p);
   REQUIRE(sets.size() == 3);

@@ -172,7 +172,7 @@ TEST_CASE("a nearby start saves work") {
 
 TEST_CASE("empty problems, open contacts, zero displacements") {
   Eigen::VectorXd none(0);
-  CHECK(solve_friction(friction_problem(Eigen::MatrixXd(0, 0), none, none), none).converged);
+  CHECK(solve_friction(test::friction_problem(Eigen::MatrixXd(0, 0), none, none), none).converged);
 
   FrictionProblem p = test::halfspace_problem(3, 0.3, 0.3, 1);
   Eigen::VectorXd r = Eigen::VectorXd::Constant(27, 7);
@@ -221,8 +221,8 @@ TEST_CASE("problems without a solution end with finite forces and say so") {
     CHECK(result.error > 0.1);
 
     // a compliance of zero: solvable only where the contact is open
-    p = friction_problem(Eigen::MatrixXd::Zero(6, 6), Eigen::VectorXd::Constant(6, 1e-3),
-                         Eigen::VectorXd::Constant(2, 0.5));
+    p = test::friction_problem(Eigen::MatrixXd::Zero(6, 6), Eigen::VectorXd::Constant(6, 1e-3),
+                               Eigen::VectorXd::Constant(2, 0.5));
     r.setZero();
     CHECK(solve_friction(p, r, options).converged);
     p.q[3] = -1e-3;
@@ -235,8 +235,8 @@ TEST_CASE("problems without a solution end with finite forces and say so") {
 
 TEST_CASE("numbers that are not finite stay in their set") {
   FrictionProblem p =
-      friction_problem(Eigen::MatrixXd::Identity(9, 9), Eigen::VectorXd::Constant(9, -1),
-                       Eigen::VectorXd::Constant(3, 0.5));
+      test::friction_problem(Eigen::MatrixXd::Identity(9, 9), Eigen::VectorXd::Constant(9, -1),
+                             Eigen::VectorXd::Constant(3, 0.5));
   p.q[4] = std::numeric_limits<double>::quiet_NaN();
   Eigen::VectorXd r = Eigen::VectorXd::Constant(9, std::numeric_limits<double>::infinity());
   const FrictionResult result = solve_friction(p, r);

@@ -1,8 +1,8 @@
 #include "kernels/hypersingular_functions.hpp"
-#include "kernels/hypersingular_tensors.hpp"
 #include "kernels/moments.hpp"
 #include "kernels/radial_functions.hpp"
-#include "kernels/tensors.hpp"
+#include "support/collocation_kernels.hpp"
+#include "support/galerkin_kernels.hpp"
 #include "support/reference.hpp"
 
 #include <catch2/catch.hpp>

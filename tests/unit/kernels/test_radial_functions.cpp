@@ -1,6 +1,6 @@
 #include "kernels/moments.hpp"
 #include "kernels/radial_functions.hpp"
-#include "kernels/tensors.hpp"
+#include "support/collocation_kernels.hpp"
 #include "support/reference.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "kernels/tensors.hpp"
+#include "base/symmetric_matrix.hpp"
 #include "model/galerkin_slabs.hpp"
 #include "support/models.hpp"
 

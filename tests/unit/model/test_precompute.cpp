@@ -1,4 +1,3 @@
-#include "assembly/laplace_assembly.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "compress/complex_product.hpp"
@@ -6,6 +5,7 @@
 #include "model/memory_estimate.hpp"
 #include "model/nodal_tractions.hpp"
 #include "model/precompute.hpp"
+#include "support/laplace_assembly.hpp"
 #include "support/models.hpp"
 
 #include <cmath>

@@ -1,5 +1,8 @@
 #include "quadrature/rule_choice.hpp"
 
+#include <tuple>
+#include <vector>
+
 #include <catch2/catch.hpp>
 
 using bem::RuleChoice;
@@ -8,10 +11,11 @@ TEST_CASE("rules are chosen by distance as measured") {
   // 1e-6: 6 points beyond 7.5 diameters, 7 beyond 4.8, 12 beyond 2.3, 16 beyond 1.5, split below
   // 0.75
   const RuleChoice choice(1e-6);
-  CHECK(choice.smallest_ratio(2) == Approx(7.5).epsilon(0.1));
-  CHECK(choice.smallest_ratio(3) == Approx(4.8).epsilon(0.1));
-  CHECK(choice.smallest_ratio(4) == Approx(2.3).epsilon(0.1));
-  CHECK(choice.smallest_ratio(7) == Approx(0.75).epsilon(0.1));
+  for (const auto& [ratio, beyond, within] : std::vector<std::tuple<double, int, int>>{
+           {7.5, 2, 3}, {4.8, 3, 4}, {2.3, 4, 5}, {0.75, 7, -1}}) {
+    CHECK(choice.choose(1.1 * ratio, 0) == beyond);
+    CHECK(choice.choose(0.9 * ratio, 0) == within);
+  }
   CHECK(choice.choose(0.5, 0) == -1);
   CHECK(choice.choose(1.0, 0) == 6);
   CHECK(choice.choose(30.0, 0) == 2);

@@ -1,6 +1,6 @@
-#include "kernels/tensors.hpp"
 #include "quadrature/singular.hpp"
 #include "quadrature/triangle_rules.hpp"
+#include "support/collocation_kernels.hpp"
 #include "support/reference.hpp"
 
 #include <catch2/catch.hpp>

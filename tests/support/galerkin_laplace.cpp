@@ -1,9 +1,9 @@
-#include "assembly/galerkin_laplace.hpp"
+#include "support/galerkin_laplace.hpp"
 
 #include "assembly/galerkin_static.hpp"
 #include "base/parallel.hpp"
-#include "kernels/hypersingular_tensors.hpp"
-#include "kernels/tensors.hpp"
+#include "support/collocation_kernels.hpp"
+#include "support/galerkin_kernels.hpp"
 
 namespace bem {
 namespace {

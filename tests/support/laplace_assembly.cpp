@@ -1,10 +1,10 @@
-#include "assembly/laplace_assembly.hpp"
+#include "support/laplace_assembly.hpp"
 
 #include "assembly/panel_quadrature.hpp"
 #include "assembly/vertex_fan.hpp"
 #include "base/parallel.hpp"
-#include "kernels/tensors.hpp"
 #include "quadrature/free_term.hpp"
+#include "support/collocation_kernels.hpp"
 
 namespace bem {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "assembly/edge_reconstruction.hpp"
-#include "assembly/laplace_assembly.hpp"
+#include "support/laplace_assembly.hpp"
 
 namespace bem {
 
