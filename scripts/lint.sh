@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Checks what can be checked without running anything: formatting, the order of the folders,
-# scripts that do not parse; warns about long files. --tidy adds clang-tidy.
+# files and names that documents refer to, scripts that do not parse; warns about long files.
+# --tidy adds clang-tidy.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -119,6 +120,7 @@ mapfile -t shell < <(files '*.sh')
 
 check "formatting of ${#cpp[@]} C++ files" clang-format --dry-run -Werror "${cpp[@]}"
 check "order of the folders" python3 scripts/check_layers.py
+check "what documents and comments refer to" python3 scripts/check_docs.py
 check "syntax of ${#python[@]} Python files" check_python "${python[@]}"
 check "syntax of ${#shell[@]} shell scripts" check_shell "${shell[@]}"
 warn_about_length "${cpp[@]}" "${python[@]}"
