@@ -8,6 +8,7 @@ What is checked, in every Markdown file below ROOT:
 * a relative link leads to a file or folder, and its anchor to a heading of that file;
 * after a link to a source file, every `name` and every "name of a test", separated by commas, occurs in that file:
       [`kernels/contour.cpp`](../libbem/kernels/contour.cpp) `ContourQuadrature::weights`, `add_closure`
+* in docs/glossary.md the `names` in the columns "code" of its tables occur in the sources of libbem;
 * a path such as kernels/contour.hpp exists below ROOT, libbem, tests or scripts (not in CHANGELOG.md, which tells of the past).
 And in comments of the code: such paths, titles as in  docs/method.md, "Double nodes"  and equation numbers as in  (M25),
 which have to be in docs/equations.md.
@@ -22,7 +23,7 @@ SKIPPED = {".git", "build", "out", "node_modules", "__pycache__"}  # folders
 FOREIGN = {"hwy"}  # folders of other libraries' headers
 SOURCES = {".cpp", ".hpp", ".h", ".py", ".sh", ".c"}
 PLACES = ("", "libbem", "tests", "scripts")  # folders that paths in texts are relative to
-EQUATIONS = "docs/equations.md"
+EQUATIONS, GLOSSARY = "docs/equations.md", "docs/glossary.md"
 
 LINK = re.compile(r"!?\[((?:[^\[\]]|\[[^\]]*\])*)\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 NAMED = re.compile(r"(?:,?\s+(?:and\s+)?)(?:`([^`]+)`|\"([^\"]+)\")")
@@ -116,11 +117,30 @@ def check_names(path, text, at, visible, file, findings):
         at = match.end()
         source = source or file.read_text(encoding="utf-8")
         code, quoted = (m and m.replace("\\|", "|") for m in match.groups())  # of table cells
-        for word in (re.split(r"::|\(\)|\.", code) if code else [quoted]):
-            known = word in source if quoted else not word or re.search(rf"(?<!\w){re.escape(word)}(?!\w)", source)
+        for word in words_of(code) if code else [quoted]:
+            known = word in source if quoted else re.search(rf"(?<!\w){re.escape(word)}(?!\w)", source)
             if not known:
                 findings.add(path, text, match.start(), f"{file.relative_to(findings.root)} has no {code or quoted!r}",
                              "name a function, type or test of that file, or link to the file that has it")
+
+
+def words_of(name):
+    """The words of a name such as Class::function() or object.member."""
+    return [w for w in re.split(r"::|\(\)|\.", name) if w]
+
+
+def check_glossary(path, text, findings):
+    """The names in the columns "code" of tables."""
+    sources = (p.read_text(encoding="utf-8") for p in files_below(findings.root / "libbem", SOURCES))
+    known = set(re.findall(r"\w+", "\n".join(sources)))
+    column, at = None, 0
+    for line in text.split("\n"):
+        cells = [c.strip() for c in line.split("|")]
+        column = (column or next((i for i, c in enumerate(cells) if c == "code"), None)) if line.startswith("|") else None
+        for name in re.findall(r"`([^`]+)`", cells[column]) if column and column < len(cells) else []:
+            if not set(words_of(name)) <= known:
+                findings.add(path, text, at, f"libbem has no {name!r}", "name a function, type or member as it is called now")
+        at += len(line) + 1
 
 
 def check_paths(path, text, at_of, visible, findings):
@@ -168,6 +188,9 @@ def main(arguments) -> int:
     documents = {p.name: titles(p.read_text(encoding="utf-8")) for p in sorted((root / "docs").glob("*.md"))}
     equations = root / EQUATIONS
     known = set(re.findall(r"\bM\d+\b", equations.read_text(encoding="utf-8"))) if equations.exists() else set()
+    glossary = root / GLOSSARY
+    if glossary.exists():
+        check_glossary(glossary, glossary.read_text(encoding="utf-8"), findings)
     for path in files_below(root, {".md"}):
         text = path.read_text(encoding="utf-8")
         visible = without_code_blocks(text)

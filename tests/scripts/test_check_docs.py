@@ -12,6 +12,7 @@ GOOD = {
                  "    [code](nowhere.md)\n\n```\n[more code](nowhere.md)\n```\n\n`[a span](nowhere.md)` and\n[two\nlines](docs/method.md)\n",
     "docs/method.md": "# Method\n\n## Two words: & more\n\n*A lead.* Text about a/good.cpp.\n",
     "docs/equations.md": "| (M1) | [`a/good.cpp`](../libbem/a/good.cpp) `Good::run`, `other` and \"a test of \\|z\\|\" |\n",
+    "docs/glossary.md": "# Glossary\n\n| word | code | not called |\n|---|---|---|\n| thing | `Good::run`, `other` | `gone` |\n",
     "libbem/a/good.cpp": "// (M1), docs/method.md, \"Two\n// words: & more\"; docs/method.md, \"A lead\"; a/good.cpp\n"
                          "struct Good { void run(); };  // a test of |z|\nvoid other();\n",
 }
@@ -50,6 +51,7 @@ class CheckDocs(unittest.TestCase):
                 ({"equations": ("Good::run", "Good::walk")}, "docs/equations.md:1", "no 'Good::walk'"),
                 ({"equations": ("`other`", "`another`")}, "docs/equations.md:1", "no 'another'"),
                 ({"equations": ("a test", "no test")}, "docs/equations.md:1", "no 'no test of |z|'"),
+                ({"glossary": ("`other`", "`another`")}, "docs/glossary.md:5", "libbem has no 'another'"),
                 ({"equations": ("M1", "M2")}, "libbem/a/good.cpp:1", "equation (M1) is not in"),
                 ({"good": ("run()", "ran()")}, "docs/equations.md:1", "no 'Good::run'"),
                 ({"good": ("; a/good.cpp", "; a/gone.hpp")}, "libbem/a/good.cpp:2", "no file a/gone.hpp")):
