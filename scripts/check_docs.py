@@ -10,6 +10,7 @@ What is checked, in every Markdown file below ROOT:
       [`kernels/contour.cpp`](../libbem/kernels/contour.cpp) `ContourQuadrature::weights`, `add_closure`
 * in docs/glossary.md the `names` in the columns "code" of its tables occur in the sources of libbem;
 * a path such as kernels/contour.hpp exists below ROOT, libbem, tests or scripts (not in CHANGELOG.md, which tells of the past).
+* a test program such as unit_kernels is one that a CMakeLists.txt below tests adds.
 And in comments of the code: such paths, titles as in  docs/method.md, "Double nodes"  and equation numbers as in  (M25),
 which have to be in docs/equations.md.
 
@@ -28,6 +29,7 @@ EQUATIONS, GLOSSARY = "docs/equations.md", "docs/glossary.md"
 LINK = re.compile(r"!?\[((?:[^\[\]]|\[[^\]]*\])*)\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 NAMED = re.compile(r"(?:,?\s+(?:and\s+)?)(?:`([^`]+)`|\"([^\"]+)\")")
 PATH = re.compile(r"(?<![\w/.*-])((?:[A-Za-z_][\w-]*/)+[\w-]+(?:\.[\w-]+)*\.(?:cpp|hpp|h|py|sh|md))\b(?!\()")
+PROGRAM = re.compile(r"(?<![\w:])(?:unit|verification)_\w+")
 TITLE = re.compile(r"([\w-]+\.md),\s*(?:(?:///?<?|#)\s*)?\"([^\"]+)\"")
 EQUATION = re.compile(r"\((M\d+)\)")
 
@@ -143,14 +145,25 @@ def check_glossary(path, text, findings):
         at += len(line) + 1
 
 
-def check_paths(path, text, at_of, visible, findings):
+def check_paths(path, text, visible, findings):
     for match in PATH.finditer(visible):
         name = match.group(1)
         if name.split("/")[0] in SKIPPED | FOREIGN or any((findings.root / place / name).exists() for place in PLACES):
             continue
         if (path.parent / name).exists() or (path.parent.parent / name).exists():
             continue
-        findings.add(path, text, at_of(match.start()), f"there is no file {name}", "name the file as it is called now")
+        findings.add(path, text, match.start(), f"there is no file {name}", "name the file as it is called now")
+
+
+def test_programs(root):
+    lists = (p.read_text(encoding="utf-8") for p in files_below(root / "tests", {".txt"}) if p.name == "CMakeLists.txt")
+    return set(re.findall(r"bem_add_test\((\w+)", "\n".join(lists)))
+
+
+def check_programs(path, text, visible, known, findings):
+    for match in PROGRAM.finditer(visible):
+        if match.group() not in known:
+            findings.add(path, text, match.start(), f"there is no test program {match.group()}", "name it as tests/ has it now")
 
 
 def comments(text, suffix):
@@ -188,6 +201,7 @@ def main(arguments) -> int:
     documents = {p.name: titles(p.read_text(encoding="utf-8")) for p in sorted((root / "docs").glob("*.md"))}
     equations = root / EQUATIONS
     known = set(re.findall(r"\bM\d+\b", equations.read_text(encoding="utf-8"))) if equations.exists() else set()
+    programs = test_programs(root)
     glossary = root / GLOSSARY
     if glossary.exists():
         check_glossary(glossary, glossary.read_text(encoding="utf-8"), findings)
@@ -197,13 +211,14 @@ def main(arguments) -> int:
         check_links(path, text, findings)
         check_titles(path, text, visible, documents, findings)
         if path.name != "CHANGELOG.md":
-            check_paths(path, text, lambda at: at, LINK.sub(lambda m: " " * len(m.group()), visible), findings)
+            check_paths(path, text, LINK.sub(lambda m: " " * len(m.group()), visible), findings)
+            check_programs(path, text, visible, programs, findings)
     for path in files_below(root, SOURCES):
         text = path.read_text(encoding="utf-8")
         visible = comments(text, path.suffix)
         check_titles(path, text, visible, documents, findings)
         if path.suffix not in {".py", ".sh"}:
-            check_paths(path, text, lambda at: at, visible, findings)
+            check_paths(path, text, visible, findings)
             check_equations(path, text, visible, known, findings)
     return 1 if findings.count else 0
 

@@ -10,7 +10,8 @@ SCRIPT = ROOT / "scripts" / "check_docs.py"
 GOOD = {
     "README.md": "# Bem\n\n[The method](docs/method.md#two-words--more) is in `libbem/a/good.cpp`, see\n[below](#bem).\n\n"
                  "    [code](nowhere.md)\n\n```\n[more code](nowhere.md)\n```\n\n`[a span](nowhere.md)` and\n[two\nlines](docs/method.md)\n",
-    "docs/method.md": "# Method\n\n## Two words: & more\n\n*A lead.* Text about a/good.cpp.\n",
+    "docs/method.md": "# Method\n\n## Two words: & more\n\n*A lead.* Text about a/good.cpp.\n`unit_a` tests it.\n",
+    "tests/CMakeLists.txt": "bem_add_test(unit_a SOURCES test_a.cpp)\n",
     "docs/equations.md": "| (M1) | [`a/good.cpp`](../libbem/a/good.cpp) `Good::run`, `other` and \"a test of \\|z\\|\" |\n",
     "docs/glossary.md": "# Glossary\n\n| word | code | not called |\n|---|---|---|\n| thing | `Good::run`, `other` | `gone` |\n",
     "libbem/a/good.cpp": "// (M1), docs/method.md, \"Two\n// words: & more\"; docs/method.md, \"A lead\"; a/good.cpp\n"
@@ -47,6 +48,7 @@ class CheckDocs(unittest.TestCase):
                 ({"README": ("a/good.cpp", "a/bad.cpp")}, "README.md:3", "no file libbem/a/bad.cpp"),
                 ({"method": ("Two words", "Three words")}, "README.md:3", "anchor #two-words--more"),
                 ({"method": ("A lead", "The lead")}, "libbem/a/good.cpp:2", "no part with the title \"A lead\""),
+                ({"method": ("unit_a", "unit_b")}, "docs/method.md:6", "no test program unit_b"),
                 ({"method": ("a/good", "b/good")}, "docs/method.md:5", "no file b/good.cpp"),
                 ({"equations": ("Good::run", "Good::walk")}, "docs/equations.md:1", "no 'Good::walk'"),
                 ({"equations": ("`other`", "`another`")}, "docs/equations.md:1", "no 'another'"),
