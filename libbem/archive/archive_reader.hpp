@@ -36,7 +36,7 @@ class Archive {
   const Codec& codec() const { return *codec_; }
   InverseKind inverse_kind() const { return inverse_; }
   bool is_iterative() const { return inverse_ == InverseKind::iterative; }
-  /// Where surface loads, contacts and joints may act.
+  /// Which nodes contacts, joints and fixed vertices may act on.
   Loads loads() const { return loads_; }
   /// Of Loads::some, ascending.
   const std::vector<int>& loaded_nodes() const { return loaded_nodes_; }
@@ -44,8 +44,8 @@ class Archive {
   const Provenance& provenance() const { return provenance_; }
   std::size_t unknowns() const { return 3 * geometry_.nodes.vertices.size(); }
 
-  /// What a motion without surface loads needs; g and the matrix of tractions of lag 0 stay empty.
-  /// `progress` may throw to stop the loading.
+  /// What a motion without tractions at nodes needs; g and the matrix of tractions of lag 0 stay
+  /// empty. `progress` may throw to stop the loading.
   BodyModel load_motion_matrices(const Progress& progress = nullptr) const;
 
   /// The complete model, as it was given to write_archive.
@@ -66,7 +66,7 @@ class Archive {
   }
 
   /// One of the balance matrices at kBalancePath or kTractionBalancePath, 6 x unknowns; without
-  /// columns if it is that of tractions and no loads may act.
+  /// columns if it is that of tractions and no node may carry any.
   Eigen::MatrixXd load_balance(const std::string& path) const;
   /// BodyModel::traction_moments.
   std::vector<Eigen::MatrixXcd> load_traction_moments() const;
@@ -92,7 +92,7 @@ class Archive {
   /// A family of large matrices.
   struct PlacedFamily {
     FamilyPlace place;
-    bool of_tractions;  ///< loads, contacts and joints alone need it
+    bool of_tractions;  ///< contacts, joints and fixed vertices alone need it
   };
   std::vector<PlacedFamily> families() const;
   /// The value of an attribute; `missing` if it is not there.

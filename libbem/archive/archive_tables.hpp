@@ -15,7 +15,7 @@ enum class Count {
   triangles,
   nodes,
   unknowns,  ///< 3 nodes
-  loaded,    ///< nodes that loads may act on
+  loaded,    ///< nodes that contacts and joints may act on
   stages,
   stage_parts,  ///< 2 stages: real and imaginary ones
   lag_components,

@@ -8,8 +8,8 @@
 namespace bem {
 
 /// Finds the contacts of a step and their forces together: contacts are detected for a motion, the
-/// motion is solved for with them, and so on until it breaks no others (docs/method.md, "Contact of
-/// a step").
+/// motion is solved for with them, and so on until it breaks no others (docs/method.md,
+/// "Joints and contact in a step").
 class ContactSearch {
  public:
   /// Everything referred to must outlive this.

@@ -82,8 +82,8 @@ struct ContactTolerances {
     double slow = 0.5;      ///< share of the error of the step before that is slow
     double stalled = 0.95;  ///< the same where rounding has ended the progress
     double still = 1e-12;   ///< change of the rotations that is none [rad]
-    /// Error of a joint that counts as met, over the size of its bodies: where nothing touches, and
-    /// where contacts are met to their own, coarser tolerance.
+    /// Error of a joint that counts as met, over the extent of its bodies: where nothing touches,
+    /// and where contacts are met to their own, coarser tolerance.
     double met = 1e-11, met_with_contacts = 1e-9;
   };
   JointIteration joints;

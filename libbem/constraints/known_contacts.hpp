@@ -26,14 +26,16 @@ class KnownContacts {
   struct Manner {
     double least_gap = 0;    ///< below it a contact that is not known yet is added [m]
     double broken = 0;       ///< below it a contact is broken [m]
-    bool all_views = false;  ///< no view of what is known is forgotten any more
-    bool friction = true;    ///< or none of it has any
+    bool all_views = false;  ///< old views of known contacts are kept
+    bool friction = true;    ///< false: contacts are taken without their friction
   };
-  /// Adds what is found and takes what is found again as it is seen now. What is not found any more
-  /// stays, but for a vertex or edge that has left a triangle or edge over a ridge for another one
-  /// of the same surface: it is held by that alone. Twice at most, so that nothing goes to and fro
-  /// for ever. With all views a known contact that is broken as it is seen now is asked for as seen
-  /// before, too, and one that is not broken stays as it is.
+  /// Adds the contacts of a detection to the known ones. A known contact that is found again gets
+  /// the points and the normal of this detection (its new view); one that is not found again keeps
+  /// its own. There is one exception: where a vertex or edge has gone over a ridge, from one
+  /// triangle or edge of a surface to another one, the new contact replaces the old one. That
+  /// happens at most `most_replacements` times to a contact, so that two contacts cannot replace
+  /// each other for ever. With `all_views` a known contact whose new view is broken is asked for in
+  /// its old views as well, and one whose new view is not broken keeps its old view.
   void take(const std::vector<ContactPair>& found, const Manner& manner);
   /// Gives contacts that were taken without friction their own.
   void restore_friction() { take({}, {}); }

@@ -98,8 +98,8 @@ class Body {
   /// World positions of all nodes at the end of the step that update() has computed.
   std::vector<Vec3> end_positions();
   /// Takes the end of the step as the new state. Throws ErrorCode::numerical if it is not finite,
-  /// inside out, or deformed to a hundred times the body's size; place and momentum remain those
-  /// before it.
+  /// inside out, or deformed by more than a hundred times the body's extent; place and momentum
+  /// remain those before it.
   void end_step();
 
   const std::string& name() const { return spec_.name; }

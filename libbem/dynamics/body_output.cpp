@@ -91,7 +91,7 @@ std::vector<Vec3> Body::end_shape() const {
 
 /// Stops motions that have no meaning any more.
 void Body::check_end() const {
-  constexpr double kMostDeformation = 100;  // of the body's size
+  constexpr double kMostDeformation = 100;  // of the body's extent
   const std::string when = " at t = " + std::to_string(stage_time(stage_count_ - 1)) + " s";
   const RigidFrame::Stages& s = frame_stages_;
   if (!end_displacement_.allFinite() || !s.translation.back().allFinite() ||

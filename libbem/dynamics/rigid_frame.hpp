@@ -42,7 +42,7 @@ struct FrameDrag {
 /// constant without torque whatever the inertia; the ballistic part of the motion is exact.
 ///
 /// A stationary frame stays where the body started: rigid motion is then kept to first order in the
-/// rotation, as linear elasticity has it in a fixed frame.
+/// rotation, as in linear elasticity.
 class RigidFrame {
  public:
   RigidFrame(const Scheme& scheme, double dt, const MassProperties& mass,

@@ -20,7 +20,7 @@ enum class Hdf5Storage {
 /// that are one text, integer or number.
 ///
 /// The library may crash or go on for ever on a file that is bad enough: to be called in a process
-/// of its own (archive/file_check.hpp). Of growing datasets all chunks are read, of others nothing.
+/// of its own (files/file_check.hpp). Of growing datasets all chunks are read, of others nothing.
 /// Throws ErrorCode::resources if the system refuses to open or to read the file.
 std::string hdf5_structure_fault(const std::string& path, Hdf5Storage storage);
 

@@ -4,7 +4,8 @@
 
 namespace bem {
 
-/// How the forces of a contact problem are found (docs/method.md, "Contact solver").
+/// How the forces of a contact problem are found (docs/method.md, "Frictional contact: the
+/// solver").
 enum class FrictionMethod {
   staggered,  ///< projected Gauss-Seidel with staggered projections [Kaufman et al. 2008]
   nsgs,       ///< nonsmooth Gauss-Seidel with exact solves of one contact at a time

@@ -27,7 +27,7 @@ using RadialValues = std::array<Scalar, kRadialCount>;
 RadialValues<double> static_radial_values(double kappa);
 
 /// Values at z2 = s r/c2, Re z2 >= 0, accurate to about 4e-15 of the static size for any |z2|,
-/// including nu = 0.5 (kappa = 0)  [method (M3)-(M6)].
+/// including nu = 0.5 (kappa = 0)  (M3)-(M6).
 RadialValues<Complex> radial_values(Complex z2, double kappa);
 
 }  // namespace bem

@@ -94,7 +94,7 @@ class Scheme {
 /// The series of p(Delta(zeta)) in powers of zeta, where p(d) = p[0] + p[1] d + p[2] d^2.
 std::vector<StageMatrix> delta_polynomial(const Scheme& scheme, const std::array<double, 3>& p);
 
-/// Number of past steps that are kept by default for lam = r_max/(c2 dt)  [method (M24), 14.2]:
+/// Number of past steps that are kept by default for lam = r_max/(c2 dt)  (M24):
 /// floor(lam+2) + ceil(m sqrt(lam)) with m = 3 for theta > 0.3, 2 for lam > 15, else 1.
 int default_history_length(const Scheme& scheme, double lam);
 

@@ -12,7 +12,7 @@ namespace bem {
 /// face has vertices of its own (STL, COLLADA) equal positions are joined.
 ///
 /// assimp 5.2 answers damaged files with failed assertions, crashes and endless loops (a truncated
-/// PLY file is enough), so it works in a process of its own (mesh/isolated_process.hpp), with 2
+/// PLY file is enough), so it works in a process of its own (files/isolated_process.hpp), with 2
 /// seconds of processor time and 4 more for each megabyte, and 1 GiB of memory and a hundred times
 /// the file's size.
 ///

@@ -39,7 +39,8 @@ struct Choices<ModelKind> {
                                                             {ModelKind::rigid, "rigid"}}};
 };
 
-/// Where surface loads, contacts and joints may act on a body.
+/// Which nodes of a body contacts, joints and fixed vertices may act on. Prescribed tractions need
+/// none of them.
 enum class Loads { all, some, none };
 
 template <>
@@ -88,7 +89,7 @@ struct BodyModel {
   std::vector<Eigen::MatrixXcd> initial_centrifugal;
   /// Either H_0^{-1} and H_0^{-1} G_0, or H_0 and G_0, which are solved with in every step; the
   /// others are empty. Of the inertial form H_0^{-1} is without rigid motions: H_0^{-1} b solves
-  /// H_0 u = b - F_0 z for some z, F_0 = [D_0 Q_0]. Of a quasi-static model H_0 stands for H(0) -
+  /// H_0 u = b - F_0 z for some z, F_0 = [D_0 Q_0]. Of a static model H_0 stands for H(0) -
   /// [D(0) Q(0)] Pi, see docs/method.md.
   std::vector<std::unique_ptr<MatrixFamily>> inverse, traction_response;
   std::vector<std::unique_ptr<MatrixFamily>> initial_h, initial_g;
@@ -112,7 +113,7 @@ struct BodyModel {
   int lag_index(int lag, int component) const { return (lag - 1) * components() + component; }
 };
 
-/// The time step that the matrices of a quasi-static model are assembled with: all waves pass
+/// The time step that the matrices of a static model are assembled with: all waves pass
 /// within a tiny part of it [s]. Motions may have any.
 inline double quasistatic_time_step(const BodyGeometry& g, const Material& m) {
   return 1e9 * g.extent / m.shear_speed();

@@ -62,7 +62,7 @@ void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vect
   model.report.rotation_residual = rotation.value();
 }
 
-/// H(0) of a quasi-static model has the rigid motions in its null space. Displacements that are
+/// H(0) of a static model has the rigid motions in its null space. Displacements that are
 /// free of them solve the equation with H(0) - [D Q] K Pi as well, which is regular for any regular
 /// K: here one that makes both parts about as large.
 void make_regular(const BodyModel& model, std::vector<InitialMatrix>& h) {

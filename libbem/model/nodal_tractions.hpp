@@ -24,7 +24,7 @@ struct NodalLoad {
 
 class NodalTractions;
 
-/// Past nodal loads. Few nodes carry any, so every lag keeps its own list.
+/// Past nodal tractions. Few nodes carry any, so every lag keeps its own list.
 class NodalHistory {
  public:
   NodalHistory() = default;
@@ -32,7 +32,7 @@ class NodalHistory {
 
   /// Makes `load` that of lag 1; older ones move on by one lag.
   void push(const NodalLoad& load);
-  /// `tractions`: that all loads belong to, or null if there are none.
+  /// `tractions`: whose nodes have carried them all, or null if none has.
   void visit_state(StateArchive& state, const NodalTractions* tractions);
   /// The window's weight on a lag.
   double factor(int k) const { return std::pow(window_, k); }
@@ -64,10 +64,10 @@ class NodalTractions {
   /// component_sums (3N x components) += sum_k G_k p_{n-k}. Reads the columns of loaded nodes.
   void add_history(const NodalHistory& history, Eigen::MatrixXd& component_sums) const;
 
-  /// Adds the effect of a load at the current step. Reads the columns of loaded nodes.
+  /// Adds the effect of nodal tractions of the current step. Reads the columns of loaded nodes.
   void add(const NodalLoad& load, SpectralState& state) const;
 
-  /// Subtracts the balanced value of (a', alpha) under a load (6 x s).
+  /// Subtracts the balanced value of (a', alpha) under nodal tractions (6 x s).
   void subtract_balance(const NodalLoad& load, Eigen::MatrixXd& accelerations) const;
 
   /// Displacement without rigid part of some nodes by unit tractions at others, by initial

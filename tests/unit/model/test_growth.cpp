@@ -20,7 +20,7 @@ double growth(const TriangleMesh& mesh, double nu, const char* scheme, double la
 }  // namespace
 
 TEST_CASE("growth factors of the free recursion agree with an independent implementation") {
-  // docs/method.md, "Numerical damping": slowest elastic motion of the 42-vertex icosphere, nu 0.3
+  // slowest elastic motion of the 42-vertex icosphere, nu 0.3
   const TriangleMesh sphere = icosphere(1, 0.5);
   const struct {
     const char* scheme;
