@@ -361,7 +361,7 @@ def long_runs():
 
 
 CASES = {
-    "plates": Case("free plates of 1 m, 20:1 and 50:1, one element thick and 4 to 10 thicknesses long, ν 0.3, 0.48, "
+    "plates": Case("free plates of 1 m, 20:1 and 50:1, one cell thick and 4 to 10 thicknesses long, ν 0.3, 0.48, "
                    "0.4999, pushed: the motion does not grow; with collocation time steps too short for sharp edges with "
                    "ν near 0.5 are refused with the cure", plates(), "shapes"),
     "held-plates": Case("the same plates, held at one edge and pushed: the motion does not grow", held_plates(), "shapes"),
