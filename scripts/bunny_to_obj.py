@@ -9,6 +9,8 @@ import pathlib
 import re
 import sys
 
+from common import obj
+
 
 def exported(source, name):
     """The nested array that the script assigns to exports.NAME; it is JSON as it stands."""
@@ -39,10 +41,7 @@ def main(arguments):
     except (OSError, ValueError) as error:
         sys.stderr.write(f"error: {arguments[0]}: {error}\n")
         return 3
-    lines = ["# The Stanford bunny, from the npm package bunny 1.0.1 (public domain)"]
-    lines += ["v " + " ".join(repr(float(x)) for x in v) for v in vertices]
-    lines += ["f " + " ".join(str(i + 1) for i in f) for f in faces]
-    pathlib.Path(arguments[1]).write_text("\n".join(lines) + "\n", encoding="ascii")
+    obj.write(arguments[1], vertices, faces, "The Stanford bunny, from the npm package bunny 1.0.1 (public domain)")
     return 0
 
 

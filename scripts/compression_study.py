@@ -12,19 +12,16 @@ Exit codes: 0 ok, 1 a program failed, 2 usage.
 """
 import argparse
 import json
-import os
 import pathlib
-import subprocess
-import sys
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+from common import programs, results  # before numpy
+from common.programs import ROOT
 
-import h5py  # noqa: E402
-import numpy as np  # noqa: E402
+import h5py
+import numpy as np
 
-from compression import orders, tables  # noqa: E402
+from compression import orders, tables
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
 PARTS = ["orders", "products", "tolerances", "simulation"]
 CUBE = {"name": "cube", "density": 1e3, "poisson_ratio": 0.5, "shear_modulus": 5e5, "time_step": 0.01}
 BUNNY = {"name": "bunny", "density": 3e3, "poisson_ratio": 0.3, "shear_modulus": 1e6, "time_step": 0.003}
@@ -35,25 +32,19 @@ TOLERANCES = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6]
 
 class Study:
     def __init__(self, out, binaries, small):
-        self.out, self.binaries, self.small = out, binaries, small
+        self.out, self.small = out, small
         out.mkdir(parents=True, exist_ok=True)
+        self.programs = programs.Programs(binaries, out / "log.txt", place=out, echo=True)
 
     def run(self, program, *arguments):
-        """Runs a program of the project in the output folder; returns its stdout."""
-        print(program, *arguments, file=sys.stderr, flush=True)
-        done = subprocess.run([str(self.binaries / program), *map(str, arguments)], cwd=self.out,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        sys.stderr.write(done.stderr)
-        if done.returncode != 0:
-            sys.exit(1)
-        return done.stdout
+        """Runs a program in the output folder; returns its stdout."""
+        return self.programs.run(program, *arguments).output
 
     def save(self, name, value):
-        (self.out / f"{name}.json").write_text(json.dumps(value, indent=1) + "\n")
+        results.save(self.out / f"{name}.json", value)
 
     def load(self, name):
-        path = self.out / f"{name}.json"
-        return json.loads(path.read_text()) if path.exists() else None
+        return results.load(self.out / f"{name}.json")
 
     def dense(self, body):
         """The uncompressed archive of a body; made if it is not there."""
@@ -67,7 +58,7 @@ class Study:
             self.run("bemshape", "bumpy-cube", "--size", CUBE_SIZE if body == "cube" else 0.15,
                      "--divisions", 5 if self.small else 24, "-o", f"{body}.obj")
         else:
-            subprocess.run([str(ROOT / "scripts/fetch_meshes.sh"), str(self.out)], check=True)
+            self.run(ROOT / "scripts/fetch_meshes.sh", self.out)
             scale = ["--mesh-scale", BUNNY_SCALE]
         self.run("bemprecomp", f"{body}.obj", f"{body}.json", "-o", archive, "--scheme", "bdf1",
                  "--discretisation", "collocation", "--history", 5, "--codec", "none", "-q", *scale)
@@ -164,13 +155,6 @@ class Study:
         print(text)
 
 
-def build():
-    subprocess.run([str(ROOT / "scripts/setup.sh")], check=True)
-    subprocess.run(["cmake", "--preset", "release"], cwd=ROOT, check=True)
-    subprocess.run(["cmake", "--build", "--preset", "release", "--parallel", str(os.cpu_count()), "--target",
-                    "bemprecomp", "bemsim", "bemshape", "bemrecode"], cwd=ROOT, check=True)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("parts", nargs="*", metavar="PART",
@@ -182,15 +166,14 @@ def main():
     for part in options.parts:
         if part not in [*PARTS, "tables"]:
             parser.error(f"unknown part '{part}'")
-    if not options.binaries and options.parts != ["tables"]:
-        build()
-    study = Study(options.output.resolve(), (options.binaries or ROOT / "build/release/bin").resolve(),
-                  options.small)
-    for part in options.parts or PARTS:
-        if part != "tables":
-            getattr(study, part)()
+    parts = [part for part in options.parts or PARTS if part != "tables"]
+    needed = ("bemprecomp", "bemsim", "bemshape", "bemrecode")
+    binaries = programs.folder(*needed, given=options.binaries) if parts else programs.BUILT
+    study = Study(options.output.resolve(), binaries, options.small)
+    for part in parts:
+        getattr(study, part)()
     study.summarise()
 
 
 if __name__ == "__main__":
-    main()
+    programs.exit_with(main)

@@ -13,6 +13,8 @@ import heapq
 import math
 import sys
 
+from common import obj
+
 
 class Refinement:
     """A closed mesh whose edges know their triangles."""
@@ -62,6 +64,8 @@ def edges(face):
 
 def refined(vertices, faces, count):
     """Vertices and faces of the mesh with `count` vertices. Raises ValueError."""
+    if len(faces) == 0 or any(len(face) != 3 for face in faces):
+        raise ValueError("expected triangles")
     mesh = Refinement(vertices, faces)
     if len(vertices) > count:
         raise ValueError(f"the mesh has {len(vertices)} vertices, more than {count}")
@@ -70,42 +74,15 @@ def refined(vertices, faces, count):
     return mesh.vertices, list(mesh.faces.values())
 
 
-def read_obj(path):
-    vertices, faces = [], []
-    with open(path, encoding="utf-8") as file:
-        for line in file:
-            kind, *values = line.split() or [""]
-            if kind == "v":
-                vertices.append([float(x) for x in values[:3]])
-            elif kind == "f":
-                faces.append([int(v.split("/")[0]) - 1 for v in values])
-    if any(len(face) != 3 for face in faces) or not faces:
-        raise ValueError("expected triangles")
-    return vertices, faces
-
-
-def write_obj(path, vertices, faces):
-    with open(path, "w", encoding="ascii") as file:
-        for v in vertices:
-            file.write("v " + " ".join(repr(x) for x in v) + "\n")
-        for f in faces:
-            file.write("f " + " ".join(str(i + 1) for i in f) + "\n")
-
-
 def main(arguments):
     if len(arguments) != 3 or not arguments[2].isdigit():
         sys.stderr.write("error: usage: refine_mesh.py IN.obj OUT.obj N\n")
         return 2
     try:
-        mesh = refined(*read_obj(arguments[0]), int(arguments[2]))
+        obj.write(arguments[1], *refined(*obj.read(arguments[0]), int(arguments[2])))
     except (ValueError, IndexError) as error:
         sys.stderr.write(f"error: {arguments[0]}: {error}\n")
         return 3
-    except OSError as error:
-        sys.stderr.write(f"error: {error}\n")
-        return 6
-    try:
-        write_obj(arguments[1], *mesh)
     except OSError as error:
         sys.stderr.write(f"error: {error}\n")
         return 6

@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
 """Tables (Markdown) of what scripts/report.sh has left in a folder; what is missing is left out."""
-import json
 import math
 import pathlib
 import sys
 
-
-def load(path):
-    return json.loads(path.read_text()) if path.exists() else None
+from common import markdown
+from common.results import load
 
 
 def phase(stats, name):
@@ -20,9 +18,7 @@ def total(stats):
 
 def table(title, head, rows):
     if rows:
-        print(f"\n## {title}\n")
-        for row in [head, ["---"] * len(head), *rows]:
-            print("| " + " | ".join(str(cell) for cell in row) + " |")
+        print(f"\n## {title}\n\n{markdown.table(head, rows)}")
 
 
 def exponent(sizes, seconds):

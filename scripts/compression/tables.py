@@ -1,6 +1,7 @@
 """Tables (Markdown) and a plot of what compression_study.py has measured."""
 import numpy as np
 
+from common import markdown
 
 
 def text(value):
@@ -8,10 +9,7 @@ def text(value):
 
 
 def table(title, head, rows):
-    lines = [f"\n### {title}\n"] if title else [""]
-    for row in [head, ["---"] * len(head), *rows]:
-        lines.append("| " + " | ".join(str(cell) for cell in row) + " |")
-    return "\n".join(lines)
+    return f"\n### {title}\n\n" + markdown.table(head, rows)
 
 
 def orders_table(orders):

@@ -4,6 +4,8 @@ import pathlib
 
 import numpy as np
 
+from common import obj
+
 from .trajectory import Body, InvalidInput
 
 
@@ -20,22 +22,12 @@ def load(path, times):
 
 
 def _body(obstacle, folder, times):
-    vertices, faces = _read_obj(folder / obstacle["mesh"])
+    vertices, polygons = obj.read(folder / obstacle["mesh"])
+    vertices = np.array(vertices)
+    faces = np.array([[p[0], a, b] for p in polygons for a, b in zip(p[1:], p[2:])], dtype=np.int64)
     rest = vertices + np.array(obstacle.get("position", [0, 0, 0]), dtype=float)
     positions = np.stack([_moved(rest, obstacle.get("motion", []), t) for t in times])
     return Body(obstacle["name"], faces, rest, positions, None)
-
-
-def _read_obj(path):
-    vertices, faces = [], []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        kind, *values = line.split() or [""]
-        if kind == "v":
-            vertices.append([float(x) for x in values[:3]])
-        elif kind == "f":
-            corners = [int(v.split("/")[0]) - 1 for v in values]
-            faces += [[corners[0], a, b] for a, b in zip(corners[1:], corners[2:])]
-    return np.array(vertices), np.array(faces, dtype=np.int64)
 
 
 def _moved(points, motion, time):
