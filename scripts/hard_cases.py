@@ -10,21 +10,16 @@ names the folder of the programs; without it they are built.
 Exit codes: 0 ok, 1 a case failed, 2 usage.
 """
 import argparse
-import json
-import os
 import pathlib
 import shutil
-import subprocess
 import sys
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-
-from hard.catalogue import CASES  # noqa: E402
-from hard.laboratory import Laboratory  # noqa: E402
-from hard.report import markdown, results  # noqa: E402
-from paper.reproduce import programs  # noqa: E402
-from paper.workspace import ROOT  # noqa: E402
+from common import programs
+from common.programs import ROOT
+from common.results import save
+from hard.catalogue import CASES
+from hard.laboratory import Laboratory
+from hard.report import markdown, results
 
 
 def arguments():
@@ -65,19 +60,14 @@ def perform(laboratory, name, clean):
 def main():
     options = arguments()
     options.out.mkdir(parents=True, exist_ok=True)
-    laboratory = Laboratory(options.out, programs(), options.short)
+    laboratory = Laboratory(options.out, programs.folder("bemprecomp", "bemsim", "bemshape", "bemmeasure"), options.short)
     found = {}
     for name in options.cases:
         found[name] = perform(laboratory, name, options.clean)
-        text = json.dumps(results(CASES, found, options.short), indent=1)
-        (options.out / "results.json").write_text(text + "\n")
+        save(options.out / "results.json", results(CASES, found, options.short))
     print(markdown(CASES, found, options.short))
     return int(any(outcome.faults for outcomes in found.values() for outcome in outcomes.values()))
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except (RuntimeError, subprocess.CalledProcessError) as failure:
-        print(f"error: {failure}", file=sys.stderr)
-        sys.exit(1)
+    programs.exit_with(main)

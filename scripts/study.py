@@ -16,19 +16,14 @@ Exit codes: 0 ok, 1 a program failed, 2 usage.
 """
 import argparse
 import json
-import os
 import pathlib
-import subprocess
-import sys
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-
-from paper.workspace import ROOT  # noqa: E402
-from study import calculix, report  # noqa: E402
-from study.problems import PROBLEMS  # noqa: E402
-from study.runner import Failed, Runner, programs  # noqa: E402
-from study.settings import DISCRETISATIONS, SCHEMES  # noqa: E402
+from common import programs, results
+from common.programs import ROOT
+from study import calculix, plots, report
+from study.problems import PROBLEMS
+from study.runner import Runner
+from study.settings import DISCRETISATIONS, SCHEMES
 
 
 def arguments():
@@ -56,7 +51,7 @@ def arguments():
 def run(options):
     names = [name for name in options.problems if name in PROBLEMS]
     if names:
-        runner = Runner(options.out, programs(), options.force)
+        runner = Runner(options.out, programs.folder("bemprecomp", "bemsim", "bemshape"), options.force)
         for name in names:
             problem = PROBLEMS[name]
             settings = problem.small if options.small else problem.plan.settings(options.schemes.split(","))
@@ -72,11 +67,11 @@ def main():
         print(json.dumps(calculix.CalculiX(options.out).reference(), indent=1))
         return 0
     run(options)
-    found = {name: json.loads((options.out / f"{name}.json").read_text()) for name in [*PROBLEMS, "calculix"]
-             if (options.out / f"{name}.json").exists()}
+    found = {name: results.load(options.out / f"{name}.json") for name in [*PROBLEMS, "calculix"]}
+    found = {name: records for name, records in found.items() if records is not None}
     text = report.summary(found)
     (options.out / "summary.md").write_text(text)
-    report.draw(found, options.out)
+    plots.draw(found, options.out)
     if options.update_docs:
         report.update_docs(found, options.out)
     print(text)
@@ -84,8 +79,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except (Failed, subprocess.CalledProcessError) as failure:
-        print(f"error: {failure}", file=sys.stderr)
-        sys.exit(1)
+    programs.exit_with(main)

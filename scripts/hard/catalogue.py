@@ -4,7 +4,9 @@ import dataclasses
 
 import numpy as np
 
-from . import figures, meshes
+from common import meshes
+
+from . import figures
 from .figures import Image
 
 

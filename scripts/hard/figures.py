@@ -1,9 +1,10 @@
 """What is measured in the outputs of a trial. Figures are numbers by name; faults are words."""
 import csv
-import json
 
 import h5py
 import numpy as np
+
+from common.results import load
 
 
 class Frames:
@@ -139,10 +140,6 @@ def read_series(path):
         for row in csv.reader(list(file)[1:]):
             found.setdefault(row[1], []).append([float(v) for v in row[2:]])
     return {name: np.array(rows) for name, rows in found.items()}
-
-
-def load(path):
-    return json.loads(path.read_text()) if path.exists() else None
 
 
 def not_finite(place):

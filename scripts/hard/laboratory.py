@@ -3,28 +3,18 @@ import dataclasses
 import json
 import math
 import re
-import resource
-import subprocess
 
 import numpy as np
-from paper.workspace import ROOT, changed
 
-from . import figures, meshes
+from common import meshes, obj
+from common.programs import DIVERGED, ROOT, Programs
+from common.results import changed
+
+from . import figures
 from .report import bounds_of
 
 SOURCES = ROOT / "scenes/hard"
-OK, NUMERICAL = 0, 5  # exit codes
 CURE = "use a shorter time step"
-
-
-@dataclasses.dataclass
-class Said:
-    """What a program did: its exit code and its messages."""
-    code: int
-    text: str
-
-    def lines(self, kind):
-        return [line for line in self.text.splitlines() if line.startswith(f"{kind}:")]
 
 
 @dataclasses.dataclass
@@ -36,11 +26,6 @@ class Outcome:
     seconds: float
 
 
-def cpu_seconds():
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
-
-
 def significant(value):
     """Three digits: a time step that a user would write."""
     return float(f"{value:.3g}")
@@ -50,17 +35,14 @@ class Laboratory:
     """`folder` receives a folder per trial; `binaries` holds the programs."""
 
     def __init__(self, folder, binaries, short=False):
-        self.folder, self.binaries, self.short = folder, binaries, short
+        self.folder, self.short = folder, short
+        self.programs = Programs(binaries, folder / "log.txt")
 
     def steps_of(self, trial):
         return trial.short_steps if self.short and trial.short_steps else trial.steps
 
     def run(self, program, *arguments, output=None):
-        done = subprocess.run([str(self.binaries / program), *map(str, arguments)], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True, errors="replace")
-        if output:
-            output.write_text(done.stdout)
-        return Said(done.returncode, done.stderr)
+        return self.programs.run(program, *arguments, output=output, allowed=None)
 
     def place(self, case, trial):
         return self.folder / case / trial.name
@@ -68,16 +50,12 @@ class Laboratory:
     def mesh(self, body, path):
         """Writes the body's mesh; returns it."""
         name, *arguments = body.mesh
-        if hasattr(meshes, name):
-            mesh = getattr(meshes, name)(*arguments)
-        else:
-            said = self.run("bemshape", name, *arguments, "-o", path)
-            if said.code != OK:
-                raise RuntimeError(f"bemshape {name}: {said.text}")
-            mesh = meshes.read(path)
+        made_here = hasattr(meshes, name)
+        self.programs.mesh(path, getattr(meshes, name)(*arguments) if made_here else body.mesh)
+        mesh = tuple(map(np.array, obj.read(path)))
         for change in body.moved:
             mesh = change(mesh)
-        meshes.write(path, mesh)
+        obj.write(path, *mesh)
         return mesh
 
     def archive(self, place, name, body):
@@ -86,7 +64,7 @@ class Laboratory:
         material = json.loads((SOURCES / f"material-{body.material}.json").read_text())
         material.update(body.changes)
         (place / f"{name}.material.json").write_text(json.dumps(material) + "\n")
-        dt = body.dt or significant(body.scale * extent(mesh[0]) / wave_speed(material) / body.lam)
+        dt = body.dt or significant(body.scale * meshes.extent(mesh) / wave_speed(material) / body.lam)
         options = ["--dt", dt, *(["--mesh-scale", body.scale] if body.scale != 1 else []), *body.options]
         said = self.run("bemprecomp", place / f"{name}.obj", place / f"{name}.material.json", "-o",
                         place / f"{name}.bem", "--force", "--threads", 1, "--stats",
@@ -112,10 +90,10 @@ class Laboratory:
             one, dt = self.archive(place, name, body)
             said.append(one)
             dts.append(dt)
-            if one.code != OK:
+            if one.code != 0:
                 return said
         for name, mesh in trial.obstacles.items():
-            meshes.write(place / f"{name}.obj", getattr(meshes, mesh[0])(*mesh[1:]))
+            obj.write(place / f"{name}.obj", *getattr(meshes, mesh[0])(*mesh[1:]))
         scene = self.scene(place, trial, dts[0])
         said.append(self.run("bemsim", scene, "-o", place / "run", "--force", "--threads", 1, "--stats",
                              place / "stats.json", "--steps", self.steps_of(trial), "--every", self.every(trial)))
@@ -129,34 +107,32 @@ class Laboratory:
 
     def perform(self, case, trial):
         """Runs a trial and judges it."""
-        before = cpu_seconds()
         said = self.attempt(case, trial)
-        seconds = cpu_seconds() - before
         faults = self._faults(trial, said)
         place = self.place(case, trial)
-        stopped = [s.code for s in said[:len(trial.bodies) + 1]][-1] == NUMERICAL
+        stopped = [s.code for s in said[:len(trial.bodies) + 1]][-1] == DIVERGED
         found, broken = figures.of_trial(place, trial)
         if stopped:  # --stats shows the state that it was stopped for
             broken = [fault for fault in broken if "stats.json" not in fault]
         if trial.image_of and found:
             other, image = trial.image_of
             found.update(image.difference(place, place.parent / other))
-        if found.get("not met") and CURE not in said[-1 - (trial.measured is not None)].text:
+        if found.get("not met") and CURE not in said[-1 - (trial.measured is not None)].messages:
             faults.append("constraints were not met, and no cure is named")
         bounds = bounds_of(trial, self.short)
         if stopped and trial.ends == "complete or stopped":
             bounds = {name: bound for name, bound in bounds.items() if name in found}
         return Outcome(found, faults + broken + misses(found, bounds),
-                       [line for s in said for line in s.lines("warning") + s.lines("error")], seconds)
+                       [line for s in said for line in s.lines("warning") + s.lines("error")], sum(s.cpu for s in said))
 
     def _faults(self, trial, said):
         faults = []
         bodies, codes = len(trial.bodies), [s.code for s in said]
-        allowed = {"complete": [[OK] * (bodies + 1)], "refused": [[OK] * (bodies - 1) + [NUMERICAL]],
-                   "complete or stopped": [[OK] * (bodies + 1), [OK] * bodies + [NUMERICAL]]}[trial.ends]
+        allowed = {"complete": [[0] * (bodies + 1)], "refused": [[0] * (bodies - 1) + [DIVERGED]],
+                   "complete or stopped": [[0] * (bodies + 1), [0] * bodies + [DIVERGED]]}[trial.ends]
         if codes[:bodies + 1] not in allowed or any(codes[bodies + 1:]):
-            faults.append(f"exit codes {codes} instead of {allowed}: {said[-1].text.strip()[-400:]}")
-        text = "\n".join(s.text for s in said)
+            faults.append(f"exit codes {codes} instead of {allowed}: {said[-1].messages.strip()[-400:]}")
+        text = "\n".join(s.messages for s in said)
         return faults + [f"nothing said like '{words}'" for words in trial.says if not re.search(words, text)]
 
 
@@ -169,12 +145,6 @@ def misses(found, bounds):
         if not good:
             faults.append(f"{name} is {value}, expected {kind} {bound:g}")
     return faults
-
-
-def extent(vertices):
-    """The largest distance of two vertices."""
-    vertices = np.asarray(vertices)
-    return float(max(np.linalg.norm(vertices - v, axis=1).max() for v in vertices))
 
 
 def wave_speed(material):

@@ -1,5 +1,5 @@
 """What the hard cases have come to, as a Markdown table and as JSON."""
-from paper.tables import table
+from common.markdown import table
 
 SIGNS = {"<=": "≤", ">=": "≥"}
 

@@ -1,6 +1,4 @@
 """The figures of the paper: what is measured in our runs (`numbers_*`), and how they are drawn (`draw_*`)."""
-import json
-
 import numpy as np
 
 from . import measures, pictures
@@ -12,7 +10,7 @@ FLAT = ("--no-time", "--fov", 5)  # poses side by side: hardly any perspective
 
 def runs_of(workspace, figure):
     """The motions of a figure's scenes that have been run, by name."""
-    return {name: pictures.load(workspace, name) for name, scene in SCENES.items()
+    return {name: measures.Motion(workspace.trajectory(name)) for name, scene in SCENES.items()
             if scene.figure == figure and workspace.trajectory(name).exists()}
 
 
@@ -71,16 +69,16 @@ def self_penetration(workspace, name, motion):
     """How deep bodies are in themselves in the last frame, of their size."""
     path = workspace.folder / f"{name}.end.h5"
     pictures.save(path, motion, [0, len(motion.times) - 1])
-    output = workspace.folder / f"{name}.end.json"
-    workspace.run("bemmeasure", workspace.folder / f"{name}.scene.json", path, "--self", output=output)
-    return json.loads(output.read_text())["worst_penetration_of_size"]
+    workspace.run("bemmeasure", workspace.folder / f"{name}.scene.json", path, "--self",
+                  output=workspace.folder / f"{name}.end.json")
+    return workspace.load(f"{name}.end")["worst_penetration_of_size"]
 
 
 def draw_fig1(workspace, runs, target):
     for name, motion in runs.items():
         last = len(motion.times) - 1
         pictures.save(workspace.folder / "fig1.h5", motion, [0, last // 5, last])
-        pictures.render(workspace.folder / "fig1.h5", None, "--sheet", target / "fig1.png", "--columns", 3,
+        pictures.render(workspace, workspace.folder / "fig1.h5", None, "--sheet", target / "fig1.png", "--columns", 3,
                         "--sheet-frames", 3, "--size", "380x330", "--up", "z", "--view", "20,48", "--color", "body",
                         "--scene", workspace.folder / f"{name}.scene.json", "--no-text")
     return ["fig1.png"] if runs else []
@@ -97,7 +95,7 @@ def draw_fig4(workspace, runs, target):
     pictures.plot(target / "fig4-motion.png", curves, ("time [s]", "height of the ring's top [mm]"),
                   marks=[(STOP, "handles stop")])
     pictures.join(workspace.folder / "fig4.h5", poses)
-    pictures.render(workspace.folder / "fig4.h5", target / "fig4.png", "--color", "deformation", "--view", "10,12",
+    pictures.render(workspace, workspace.folder / "fig4.h5", target / "fig4.png", "--color", "deformation", "--view", "10,12",
                     "--size", f"1000x{80 + 170 * len(runs)}", *FLAT)
     return ["fig4.png", "fig4-motion.png"]
 
@@ -110,7 +108,7 @@ def draw_fig5(workspace, runs, target):
             poses = poses or [("start", motion, 0, np.zeros(3))]
             poses.append((name, motion, int(measures.volume_changes(motion).argmax()), pictures.offset((12, 14), 0.58 * len(poses))))
     pictures.join(workspace.folder / "fig5.h5", poses)
-    pictures.render(workspace.folder / "fig5.h5", target / "fig5.png", "--color", "area", "--view", "12,14",
+    pictures.render(workspace, workspace.folder / "fig5.h5", target / "fig5.png", "--color", "area", "--view", "12,14",
                     "--size", "1000x260", *FLAT)
     return ["fig5.png"]
 
@@ -119,7 +117,7 @@ def draw_fig6(workspace, runs, target):
     poses = [(name, motion, len(motion.times) - 1, pictures.offset((20, 20), 0.85 * k))
              for k, (name, motion) in enumerate(runs.items())]
     pictures.join(workspace.folder / "fig6.h5", poses)
-    pictures.render(workspace.folder / "fig6.h5", target / "fig6.png", "--color", "deformation", "--view", "20,20",
+    pictures.render(workspace, workspace.folder / "fig6.h5", target / "fig6.png", "--color", "deformation", "--view", "20,20",
                     "--size", "1000x200", *FLAT)
     return ["fig6.png"]
 
@@ -129,7 +127,7 @@ def draw_fig8(workspace, runs, target):
     times = [*(0.15 * np.arange(6))[0.15 * np.arange(6) < end], end]
     rows = [(f"friction {name[-3:]}", motion, (0, 0, 0.24 * k)) for k, (name, motion) in enumerate(runs.items())]
     pictures.join_runs(workspace.folder / "fig8.h5", rows, times)
-    pictures.render(workspace.folder / "fig8.h5", target / "fig8.png", "--color", "body", "--view", "8,32",
+    pictures.render(workspace, workspace.folder / "fig8.h5", target / "fig8.png", "--color", "body", "--view", "8,32",
                     "--size", "700x440", "--obstacle-plane", "y=0", "--ghosts", len(times) - 1, "--no-time")
     return ["fig8.png"]
 
@@ -142,7 +140,7 @@ def draw_fig9(workspace, runs, target):
             frame = int(np.abs(motion.times - time).argmin())
             poses.append((name, motion, frame, pictures.offset((15, 18), 0.6 * k, 0.2 * row)))
     pictures.join(workspace.folder / "fig9.h5", poses)
-    pictures.render(workspace.folder / "fig9.h5", target / "fig9.png", "--color", "area", "--view", "15,18",
+    pictures.render(workspace, workspace.folder / "fig9.h5", target / "fig9.png", "--color", "area", "--view", "15,18",
                     "--size", "1000x320", "--range", "-60,60", *FLAT)
     return ["fig9.png"]
 

@@ -1,14 +1,9 @@
 """Pictures of the figures: poses of several runs side by side, drawn by render.py, and plots."""
-import subprocess
-import sys
-
 import h5py
 import numpy as np
 
+from common.programs import ROOT
 from rendering import camera
-
-from .measures import Motion
-from .workspace import ROOT, Failed
 
 LIMIT = 150_000  # bytes of a picture of the documents
 
@@ -46,11 +41,9 @@ def join_runs(path, runs, times):
             file[f"bodies/{name}/faces"], = motion.faces.values()
 
 
-def render(trajectory, output, *options):
-    command = [sys.executable, str(ROOT / "scripts/render.py"), str(trajectory), *map(str, options), "-q"]
-    code = subprocess.run([*command, *(() if output is None else ("--still", str(output)))]).returncode
-    if code != 0:
-        raise Failed(code)
+def render(workspace, trajectory, output, *options):
+    still = () if output is None else ("--still", output)
+    workspace.run(ROOT / "scripts/render.py", trajectory, *options, "-q", *still)
 
 
 def offset(view, right, down=0.0):
@@ -94,8 +87,3 @@ def plot(path, curves, labels, size=(6.4, 3.0), marks=()):
     figure.tight_layout()
     figure.savefig(path)
     pyplot.close(figure)
-
-
-def load(workspace, name):
-    path = workspace.trajectory(name)
-    return Motion(path) if path.exists() else None

@@ -1,17 +1,17 @@
 """The command line of scripts/reproduce.sh."""
 import argparse
-import os
 import pathlib
 import shutil
-import subprocess
 import sys
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
+from common import programs  # noqa: E402
+from common.markdown import with_sections  # noqa: E402
+from common.programs import ROOT  # noqa: E402
 from paper import figures, tables  # noqa: E402
 from paper.catalogue import FIGURES, SCENES  # noqa: E402
-from paper.workspace import ROOT, Failed, Workspace  # noqa: E402
+from paper.workspace import Workspace  # noqa: E402
 
 PAPERS, DEFAULTS = ("bdf1", "collocation"), ("radau2", "galerkin")  # scheme and discretisation
 DOCUMENT, IMAGES = ROOT / "docs/paper.md", ROOT / "docs/images/paper"
@@ -41,16 +41,6 @@ def arguments():
     return options
 
 
-def programs():
-    """The folder of the programs; builds them unless BEM_BIN names it."""
-    if os.environ.get("BEM_BIN"):
-        return pathlib.Path(os.environ["BEM_BIN"]).resolve()
-    subprocess.run(["cmake", "--preset", "release"], cwd=ROOT, check=True)
-    subprocess.run(["cmake", "--build", "--preset", "release", "--parallel", str(os.cpu_count()), "--target",
-                    "bemprecomp", "bemsim", "bemshape", "bemmeasure", "bemrecode"], cwd=ROOT, check=True)
-    return ROOT / "build/release/bin"
-
-
 def folder(small, scheme, discretisation):
     """out/paper, and beside its archives what other meshes, schemes or discretisations need in a folder of its own."""
     others = [word.replace(":", "") for word, own in zip((scheme, discretisation), PAPERS) if word != own]
@@ -67,8 +57,9 @@ def defaults(options, workspace):
 
 def main():
     options = arguments()
-    workspace = Workspace(folder(options.small, options.scheme, options.discretisation), programs(), options.small, options.threads, options.scheme,
-                          options.discretisation)
+    binaries = programs.folder("bemprecomp", "bemsim", "bemshape", "bemmeasure", "bemrecode")
+    workspace = Workspace(folder(options.small, options.scheme, options.discretisation), binaries, options.small,
+                          options.threads, options.scheme, options.discretisation)
     for name in options.scenes:
         print(f"== {name}", file=sys.stderr)
         workspace.prepare(name)
@@ -82,7 +73,7 @@ def main():
     (workspace.folder / "summary.md").write_text(text)
     print(text)
     if options.update_docs:
-        DOCUMENT.write_text(tables.inserted(DOCUMENT.read_text(), found))
+        DOCUMENT.write_text(with_sections(DOCUMENT.read_text(), found))
         IMAGES.mkdir(parents=True, exist_ok=True)
         for picture in workspace.folder.glob("fig*.png"):
             shutil.copy(picture, IMAGES)
@@ -90,8 +81,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except (Failed, subprocess.CalledProcessError) as failure:
-        print(f"error: a program ended with {failure}", file=sys.stderr)
-        sys.exit(1)
+    programs.exit_with(main)

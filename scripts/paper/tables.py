@@ -1,16 +1,10 @@
-"""What the runs have measured as Markdown, and its places in docs/paper.md."""
-import os
-import re
+"""What the runs have measured as Markdown."""
+from common.machine import description, load_remark
+from common.markdown import table
 
 from .catalogue import FIGURES, PAPER, SCENES
 
 PHASES = ("unconstrained", "collision", "constraints", "correction")
-BUSY = 0.15  # cores in use by others that make times worthless
-
-
-def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "| " + " | ".join(["---"] * len(head)) + " |"]
-    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows])
 
 
 def seconds(value):
@@ -30,23 +24,6 @@ def percent(value):
 
 def total(stats):
     return sum(stats["phases"][p]["mean_seconds"] for p in PHASES)
-
-
-def machine():
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as file:
-            name = re.search(r"model name\s*:\s*(.*)", file.read())
-    except OSError:
-        name = None
-    return f"{name.group(1).strip() if name else 'unknown processor'}, {os.cpu_count()} hardware threads"
-
-
-def load_remark(all_stats):
-    """A sentence when other programs ran beside ours."""
-    others = max(s["cores_of_others"] for s in all_stats)
-    if others < BUSY:
-        return ""
-    return (f" **Preliminary: other programs used up to {others:.1f} cores meanwhile, so these times are too long.**")
 
 
 def measured(workspace, name):
@@ -96,7 +73,7 @@ def table1(workspace, defaults=None):
             "constraints [s]", "correction [s]", "step [s]", "paper / ours"]
     threads = sorted({s["threads"] for s in seen})
     note = "Coarse meshes, nothing to compare with the paper's. " if workspace.small else ""
-    note += (f"Cells with two values: ours / the paper's. Ours: {machine()}, bemsim on "
+    note += (f"Cells with two values: ours / the paper's. Ours: {description()}, bemsim on "
              f"{' or '.join(map(str, threads))} thread{'s' if threads != [1] else ''}.{load_remark(seen)}")
     if defaults:
         head += ["defaults: size [GB]", "defaults: step [s]"]
@@ -155,14 +132,3 @@ def parts(workspace, defaults=None):
 def report(found):
     titles = {"table1": "Table 1"}
     return "\n\n".join(f"## {titles.get(name, 'Fig. ' + name[3:])}\n\n{text}" for name, text in found.items()) + "\n"
-
-
-def inserted(document, found):
-    """The document with the parts between their markers, `<!-- NAME -->` and `<!-- end of NAME -->`."""
-    for name, text in found.items():
-        begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
-        if document.count(begin) != 1 or document.count(end) != 1:
-            raise ValueError(f"expected the markers {begin} and {end} once each")
-        head, rest = document.split(begin)
-        document = head + begin + "\n" + text + "\n" + end + rest.split(end)[1]
-    return document

@@ -1,67 +1,16 @@
 """Meshes, archives, scene files and runs of the catalogue in one folder."""
 import hashlib
 import json
-import os
 import pathlib
-import resource
-import subprocess
 import sys
-import time
+
+from common import results
+from common.machine import OtherLoad
+from common.programs import DIVERGED, ROOT, Programs
 
 from .catalogue import BODIES, OBSTACLES, SCENES
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCES = ROOT / "scenes/paper"
-DIVERGED = 5  # exit code of bemsim: non-finite numbers; what was computed before is there
-
-
-class Failed(Exception):
-    """A program ended with an error; its exit code."""
-
-    def __init__(self, code):
-        super().__init__(f"exit code {code}")
-        self.code = code
-
-
-class OtherLoad:
-    """How much of the machine others use while programs run here."""
-
-    def __init__(self):
-        self.start = self._now()
-
-    @staticmethod
-    def _now():
-        """Wall seconds, busy CPU seconds of the machine, and those of our children; without /proc the last two
-        are equal."""
-        own = resource.getrusage(resource.RUSAGE_CHILDREN)
-        own = own.ru_utime + own.ru_stime
-        try:
-            with open("/proc/stat", encoding="ascii") as file:
-                user, nice, system, _, _, *rest = map(int, file.readline().split()[1:])
-            busy = (user + nice + system + sum(rest[:3])) / os.sysconf("SC_CLK_TCK")
-        except (OSError, ValueError):
-            busy = own
-        return time.monotonic(), busy, own
-
-    def cores(self):
-        """Mean number of cores in use by others since the start."""
-        wall, busy, own = (b - a for a, b in zip(self.start, self._now()))
-        return max(busy - own, 0.0) / max(wall, 1e-3)
-
-
-def changed(content, changes):
-    """Puts values {JSON path: value} into a document; a whole number for an array keeps its first few items."""
-    for pointer, value in changes.items():
-        *parents, key = pointer.strip("/").split("/")
-        target = content
-        for parent in parents:
-            target = target[int(parent) if isinstance(target, list) else parent]
-        if isinstance(target, list):
-            key = int(key)
-        elif isinstance(value, int) and isinstance(target.get(key), list):
-            value = target[key][:value]
-        target[key] = value
-    return content
 
 
 class Workspace:
@@ -69,30 +18,17 @@ class Workspace:
     the paper's unless others are given."""
 
     def __init__(self, folder, binaries, small=False, threads=1, scheme="bdf1", discretisation="collocation"):
-        self.folder, self.binaries = pathlib.Path(folder), pathlib.Path(binaries)
+        self.folder, self.binaries = pathlib.Path(folder), binaries
         self.small, self.threads, self.scheme, self.discretisation = small, threads, scheme, discretisation
         self.folder.mkdir(parents=True, exist_ok=True)
-
-    def run(self, program, *arguments, output=None):
-        """Runs a program of the project (or a script by its path), its stdout into a file if one is given."""
-        command = [str(program if pathlib.Path(program).is_absolute() else self.binaries / program),
-                   *map(str, arguments)]
-        print(" ".join(command), file=sys.stderr, flush=True)
-        try:
-            with open(output or os.devnull, "w") as target:
-                code = subprocess.run(command, stdout=target).returncode
-        except OSError as error:
-            raise SystemExit(f"error: {error}") from None
-        if code != 0:
-            raise Failed(code)
+        self.run = Programs(binaries, self.folder / "log.txt", echo=True).run
 
     def load(self, name):
         """What is in NAME.json of the folder, or None."""
-        path = self.folder / f"{name}.json"
-        return json.loads(path.read_text()) if path.exists() else None
+        return results.load(self.folder / f"{name}.json")
 
     def save(self, name, value):
-        (self.folder / f"{name}.json").write_text(json.dumps(value, indent=1) + "\n")
+        results.save(self.folder / f"{name}.json", value)
 
     def mesh(self, name):
         """The path of the body's mesh."""
@@ -139,7 +75,7 @@ class Workspace:
         scene = SCENES[name]
         content = json.loads((SOURCES / f"{scene.file}.json").read_text())
         changes = {**scene.changes, **(scene.small_changes if self.small else {})}
-        changed(content, changes)
+        results.changed(content, changes)
         for thing in [*content["bodies"], *content.get("obstacles", [])]:
             for key in thing.keys() & {"archive", "mesh"}:
                 thing[key] = pathlib.PurePath(thing[key]).name
@@ -161,12 +97,9 @@ class Workspace:
         scene, file = SCENES[name], self.scene_file(name)
         count = steps or (scene.small_steps if self.small else None)
         others = OtherLoad()
-        try:
-            self.run("bemsim", file, "-o", self.folder / name, "--force", "--threads", self.threads,
-                     "--stats", self.folder / f"{name}.stats.json", *(["--steps", count] if count else []))
-        except Failed as failure:
-            if failure.code != DIVERGED:
-                raise
+        done = self.run("bemsim", file, "-o", self.folder / name, "--force", "--threads", self.threads, "--stats",
+                        self.folder / f"{name}.stats.json", *(["--steps", count] if count else []), allowed=(0, DIVERGED))
+        if done.code == DIVERGED:
             print(f"warning: {name} ended early", file=sys.stderr)
         stats = self.load(f"{name}.stats")
         stats["cores_of_others"] = others.cores()

@@ -4,16 +4,16 @@ import math
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 
 import numpy as np
 
-from paper.workspace import ROOT, OtherLoad
+from common.machine import OtherLoad
+from common.programs import ROOT, Failed, Programs, visible
+from common.results import Results
 
 from . import measures
 from .closed_forms import Beam, Rod
-from .runner import Failed, Results, spent
 
 ALPHA = -0.05  # of the Hilber-Hughes-Taylor method, the default of ccx
 ENVIRONMENT = {"OMP_NUM_THREADS": "1", "CCX_NPROC_EQUATION_SOLVER": "1", "CCX_NPROC_STIFFNESS": "1",
@@ -146,19 +146,20 @@ class CalculiX:
         self.folder, self.force = pathlib.Path(out) / "calculix", force
         self.folder.mkdir(parents=True, exist_ok=True)
         if not shutil.which("ccx"):
-            subprocess.run([str(ROOT / "scripts/setup.sh"), "--calculix"], check=True)
+            visible(ROOT / "scripts/setup.sh", "--calculix")
+        self.programs = Programs("", self.folder / "log.txt", place=self.folder)
 
     def run(self, name, content):
         """{"cpu": seconds, "memory": bytes} and the .dat file of an input file."""
         (self.folder / f"{name}.inp").write_text(content)
-        code, cpu, memory = spent(["ccx", "-i", name], self.folder, ENVIRONMENT)
+        done = self.programs.run("ccx", "-i", name, environment=ENVIRONMENT)
         path = self.folder / f"{name}.dat"
-        if code != 0 or not path.exists():
-            raise Failed(f"ccx -i {name}: exit code {code}, see {self.folder}/log.txt")
+        if not path.exists():
+            raise Failed(f"ccx -i {name} has written no {path}: {done.output[-400:]}")
         text = path.read_text()
         for leftover in self.folder.glob(f"{name}.*"):
             leftover.unlink()
-        return {"cpu": cpu, "memory": memory}, text
+        return {"cpu": done.cpu, "memory": done.memory}, text
 
     def study(self, settings):
         """Runs (case, element, cells across, steps per period) that are not there yet."""

@@ -6,7 +6,9 @@ import typing
 
 import numpy as np
 
-from . import measures, meshes
+from common import meshes
+
+from . import measures
 from .closed_forms import Beam, Drop, Hertz, Plate, Rod, Slide, Sphere, Tumbling
 from .settings import BASE, COLLOCATION, Plan, Setting, in_both
 

@@ -2,10 +2,10 @@
 import pathlib
 import shutil
 
-from paper.tables import inserted
-from paper.workspace import ROOT
+from common.markdown import table, with_sections
+from common.programs import ROOT
 
-from . import plots, tables
+from . import tables
 from .settings import Setting, in_both
 from .tables import SCENES
 
@@ -28,8 +28,8 @@ def headline(found):
                          f"{100 * r['error']:.2f} %", tables.number(r["precompute_cpu"], 3),
                          tables.number(tables.per_second(r), 3), tables.megabytes(r["archive_bytes"]),
                          tables.megabytes(r["precompute_memory"])])
-    return tables.table(["problem", "in space", "nodes", "dt [s]", "steps per period (traversal)", "error",
-                         "precompute [CPU s]", "simulation [CPU s per s]", "archive [MB]", "memory [MB]"], rows)
+    return table(["problem", "in space", "nodes", "dt [s]", "steps per period (traversal)", "error",
+                  "precompute [CPU s]", "simulation [CPU s per s]", "archive [MB]", "memory [MB]"], rows)
 
 
 def parts(found):
@@ -56,13 +56,9 @@ def update_docs(found, out):
     for path in DOCUMENTS:
         document = path.read_text()
         there = {name: text for name, text in parts(found).items() if f"<!-- {name} -->" in document}
-        path.write_text(inserted(document, there))
+        path.write_text(with_sections(document, there))
     IMAGES.mkdir(parents=True, exist_ok=True)
     shown = "".join(path.read_text() for path in DOCUMENTS)
     for picture in pathlib.Path(out).glob("*.svg"):
         if f"images/study/{picture.name}" in shown:
             shutil.copy(picture, IMAGES)
-
-
-def draw(found, out):
-    return plots.draw(found, pathlib.Path(out))

@@ -1,7 +1,8 @@
 """What the runs have found, as Markdown."""
 import numpy as np
 
-from paper.tables import load_remark, machine, table
+from common.machine import description, load_remark
+from common.markdown import table
 
 from . import measures, time_schemes
 from .problems import BEAM, BENDING, HARD, PROBLEMS, QUADRUPOLE, ROD, SOFT, SPHERE
@@ -312,4 +313,4 @@ def remark(found):
     long = 2  # CPU seconds; of shorter runs the script itself is a noticeable part
     records = [r for part in found.values() for r in part.values() if "cores_of_others" in r
                and r.get("cpu", 0) + r.get("precompute_cpu", 0) + r.get("simulate_cpu", 0) > long]
-    return f"{machine()}, one thread, CPU seconds.{load_remark(records)}" if records else ""
+    return f"{description()}, one thread, CPU seconds.{load_remark(records)}" if records else ""

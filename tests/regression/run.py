@@ -23,8 +23,9 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
 
+from common import programs  # noqa: E402
 from paper import measures  # noqa: E402
-from paper.workspace import Failed, Workspace  # noqa: E402
+from paper.workspace import Workspace  # noqa: E402
 
 SAMPLES = 5  # vertices of each body
 
@@ -140,8 +141,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except Failed as failure:
-        print(f"FAILED: a program ended with {failure}")
-        sys.exit(1)
+    programs.exit_with(main)

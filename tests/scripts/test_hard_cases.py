@@ -12,7 +12,8 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
-from hard import figures, meshes, report  # noqa: E402
+from common import meshes, obj  # noqa: E402
+from hard import figures, report  # noqa: E402
 from hard.catalogue import CASES, Case, Trial, renumbered_mesh, turned_mesh  # noqa: E402
 from hard.laboratory import SOURCES, Outcome, misses  # noqa: E402
 
@@ -59,8 +60,8 @@ class Meshes(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "a.obj"
             mesh = turned_mesh(TURN)(meshes.tetrahedron())
-            meshes.write(path, mesh)
-            read = meshes.read(path)
+            obj.write(path, *mesh)
+            read = obj.read(path)
             np.testing.assert_array_equal(read[0], mesh[0])
             np.testing.assert_array_equal(read[1], mesh[1])
 

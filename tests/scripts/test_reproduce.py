@@ -12,9 +12,12 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
+from common.machine import OtherLoad  # noqa: E402
+from common.markdown import with_sections  # noqa: E402
+from common.programs import Failed  # noqa: E402
 from paper import figures, measures, tables  # noqa: E402
 from paper.catalogue import BODIES, FIGURES, PAPER, SCENES  # noqa: E402
-from paper.workspace import Failed, OtherLoad, Workspace  # noqa: E402
+from paper.workspace import Workspace  # noqa: E402
 from refine_mesh import refined  # noqa: E402
 
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
@@ -175,12 +178,12 @@ class Tables(Folder):
     def test_the_document_has_room_for_every_part(self):
         document = (ROOT / "docs/paper.md").read_text()
         found = {name: f"text of {name}" for name in ["table1", *FIGURES]}
-        once = tables.inserted(document, found)
-        self.assertEqual(tables.inserted(once, found), once)
+        once = with_sections(document, found)
+        self.assertEqual(with_sections(once, found), once)
         for name in found:
             self.assertIn(f"<!-- {name} -->\ntext of {name}\n<!-- end of {name} -->", once)
         with self.assertRaises(ValueError):
-            tables.inserted("nothing", found)
+            with_sections("nothing", found)
 
     def test_every_figure_has_a_table_and_a_picture(self):
         for figure in FIGURES:

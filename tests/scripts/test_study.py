@@ -12,7 +12,8 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
-from study import calculix, measures, meshes, report, tables, time_schemes  # noqa: E402
+from common import meshes  # noqa: E402
+from study import calculix, measures, time_schemes  # noqa: E402
 from study.closed_forms import Beam, Rod, Sphere, Tumbling  # noqa: E402
 from study.problems import PROBLEMS  # noqa: E402
 from study.settings import SCHEMES, Setting  # noqa: E402

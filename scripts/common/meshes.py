@@ -1,22 +1,9 @@
 """Closed meshes that bemshape does not make: corners cut to needles and slivers, bodies of unequal cells,
-tops. A mesh is (vertices [N, 3], triangles [M, 3] counter-clockwise from outside)."""
+tops, geodesic spheres. A mesh is (vertices [N, 3], triangles [M, 3] counter-clockwise from outside)."""
+import itertools
+import math
+
 import numpy as np
-
-
-def write(path, mesh):
-    """As OBJ, with all digits."""
-    vertices, triangles = mesh
-    lines = [f"v {x:.17g} {y:.17g} {z:.17g}" for x, y, z in np.asarray(vertices, dtype=float)]
-    lines += [f"f {a} {b} {c}" for a, b, c in np.asarray(triangles) + 1]
-    path.write_text("\n".join(lines) + "\n")
-
-
-def read(path):
-    """An OBJ file of triangles."""
-    words = [line.split() for line in path.read_text().splitlines()]
-    vertices = [[float(x) for x in w[1:4]] for w in words if w[:1] == ["v"]]
-    triangles = [[int(x.split("/")[0]) - 1 for x in w[1:4]] for w in words if w[:1] == ["f"]]
-    return np.array(vertices), np.array(triangles)
 
 
 def cells(xs, ys, zs, empty=()):
@@ -171,6 +158,36 @@ def top(sides=12, radius=0.05, height=0.05):
     return vertices, np.array(triangles)
 
 
+def geodesic_sphere(frequency, radius):
+    """Sphere of 10 f^2 + 2 vertices: every face of an icosahedron in f^2 triangles. It has the volume of the
+    sphere with that radius, so that errors are none of size."""
+    golden = (1 + math.sqrt(5)) / 2
+    corners = np.array([np.roll([0, y, z], shift) for shift in range(3) for y in (-1, 1) for z in (-golden, golden)])
+    faces = [f for f in itertools.combinations(range(12), 3)
+             if all(abs(np.sum((corners[a] - corners[b])**2) - 4) < 1e-9 for a, b in itertools.combinations(f, 2))]
+    vertices, index, triangles = [], {}, []
+
+    def vertex(a, b, c, i, j):
+        point = (i * corners[a] + j * corners[b] + (frequency - i - j) * corners[c])
+        key = tuple(np.round(point, 6))
+        if key not in index:
+            index[key] = len(vertices)
+            vertices.append(point / np.linalg.norm(point))
+        return index[key]
+
+    for a, b, c in faces:
+        if np.dot(np.cross(corners[b] - corners[a], corners[c] - corners[a]), corners[a]) < 0:
+            b, c = c, b
+        for i in range(frequency):
+            for j in range(frequency - i):
+                triangles.append([vertex(a, b, c, i + 1, j), vertex(a, b, c, i, j + 1), vertex(a, b, c, i, j)])
+                if i + j < frequency - 1:
+                    triangles.append([vertex(a, b, c, i + 1, j), vertex(a, b, c, i + 1, j + 1), vertex(a, b, c, i, j + 1)])
+    vertices, triangles = np.array(vertices), np.array(triangles)
+    volume = np.sum(vertices[triangles[:, 0]] * np.cross(vertices[triangles[:, 1]], vertices[triangles[:, 2]])) / 6
+    return vertices * radius * (4 / 3 * math.pi / volume)**(1 / 3), triangles
+
+
 def aspects(mesh):
     """Longest edge over height, smallest angle [degrees] and longest edge of every triangle."""
     corners = np.asarray(mesh[0])[np.asarray(mesh[1])]
@@ -187,3 +204,9 @@ def aspects(mesh):
 def volume(mesh):
     a, b, c = (np.asarray(mesh[0])[np.asarray(mesh[1])[:, k]] for k in range(3))
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+def extent(mesh):
+    """The largest distance of two vertices."""
+    vertices = np.asarray(mesh[0])
+    return float(max(np.linalg.norm(vertices - v, axis=1).max() for v in vertices))
