@@ -43,7 +43,8 @@ class Runner:
         done = self.program("bemprecomp", "body.obj", "material.json", "-o", "body.bem", "--force", "-q",
                             "--threads", 1, "--stats", "precompute.json", *time_step, *setting.options())
         record = {"scheme": setting.scheme if setting.model == "dynamic" else setting.model, "mesh": setting.mesh,
-                  "steps": setting.steps, "dt": dt, "precompute_cpu": done.cpu, "error": None}
+                  "steps": setting.steps, "dt": dt, "precompute_cpu": done.cpu,
+                  "precompute_memory": done.memory, "error": None}
         if done.code == DIVERGED:
             return {scene: {**record, "failed": "bemprecomp refused"} for scene in scenes}
         record.update(precomputed(load(self.out / "precompute.json")))
@@ -62,7 +63,7 @@ class Runner:
         (self.out / "scene.json").write_text(json.dumps(content))
         done = self.program("bemsim", "scene.json", "-o", "run", "--force", "-q", "--threads", 1, "--stats", "simulate.json")
         stats = load(self.out / "simulate.json")
-        record = {"simulate_cpu": done.cpu, "simulate_memory": stats["peak_memory_bytes"], "simulated": stats["time"],
+        record = {"simulate_cpu": done.cpu, "simulate_memory": done.memory, "simulated": stats["time"],
                   "loading": stats["loading_seconds"], "matrix_bytes": stats["matrix_bytes"],
                   "simulate_phases": {k: v["total_seconds"] for k, v in stats["phases"].items()}}
         if done.code == DIVERGED:
@@ -77,7 +78,6 @@ class Runner:
 def precomputed(stats):
     """What the study keeps of the statistics of bemprecomp."""
     found = {"nodes": stats["body"]["nodes"], "archive_bytes": stats["archive_bytes"],
-             "precompute_memory": stats["peak_memory_bytes"],
              "precompute_phases": {p["name"]: p["cpu_seconds"] for p in stats["phases"]}}
     if "scheme" in stats:
         found.update(history=stats["scheme"]["history_length"], window=stats["scheme"]["window"],
