@@ -271,6 +271,13 @@ class Messages(CliCase):
         self.assertRegex(done.stdout, r"archive size: +less than .* MB")
         self.assertRegex(done.stdout, r"time: +about [0-9]+ h")
 
+    def test_peak_memory_is_the_programs_own(self):
+        large = bytearray(500_000_000)
+        large[::4096] = b"x" * len(large[::4096])  # resident
+        self.precompute("--stats", "s.json", "--quiet")
+        del large
+        self.assertLess(json.loads((self.folder / "s.json").read_text())["peak_memory_bytes"], 3e8)
+
     def test_stats(self):
         self.precompute("--stats", "s.json", "--threads", "1", "--measure-growth")
         stats = json.loads((self.folder / "s.json").read_text())

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <string>
+#include <string_view>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -33,9 +35,13 @@ std::string format(const char* pattern, double value, const char* unit) {
 }  // namespace
 
 std::size_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+  // getrusage() would give what the process that started this one has had, if that is more
+  constexpr std::string_view kKey = "VmHWM:";
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.compare(0, kKey.size(), kKey) == 0)
+      return std::stoull(line.substr(kKey.size())) * 1024;
+  return 0;
 }
 
 std::size_t physical_memory() {
