@@ -15,7 +15,7 @@ PLAN = {
     "friction": "base algebra",
     "output": "base files mesh",
     "scene": "base files mesh friction output",
-    "kernels": "base",
+    "kernels": "base algebra",
     "quadrature": "base",
     "assembly": "base algebra mesh kernels quadrature",
     "compress": "base files algebra mesh",

@@ -1,5 +1,7 @@
 #include "assembly/discretisation.hpp"
 
+#include "algebra/decompositions.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +11,7 @@ double largest_symbol(const Scheme& scheme) {
   constexpr double kWeaklyDamped = 0.31;  // real by imaginary part: exp(-z r/(c2 dt))
   double largest = 0;
   for (int i = 0; i <= kSamples; ++i) {
-    const StageMatrixC delta = scheme.delta(std::polar(1.0, kPi * i / kSamples));
-    const StageVectorC values = delta.eigenvalues();
+    const Eigen::VectorXcd values = eigenvalues(scheme.delta(std::polar(1.0, kPi * i / kSamples)));
     largest = std::max(largest, values.cwiseAbs().minCoeff());
     for (const Complex& z : values)
       if (z.real() <= kWeaklyDamped * std::abs(z.imag())) largest = std::max(largest, std::abs(z));

@@ -1,5 +1,6 @@
 #include "assembly/edge_reconstruction.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "base/parallel.hpp"
 #include "mesh/adjacency.hpp"
 
@@ -8,7 +9,6 @@
 #include <map>
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
 
 namespace bem {
 namespace {
@@ -47,10 +47,10 @@ Eigen::VectorXd edge_coefficients(const TriangleMesh& mesh, int a, int b,
     data(j, j + 2) = w;
   }
   // what linear fields explain is theirs
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linear, Eigen::ComputeThinU);
-  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k) {
-    if (svd.singularValues()[k] <= kNoDirection) continue;
-    const Eigen::VectorXd u = svd.matrixU().col(k);
+  const LeftSingularSystem svd = left_singular_system(linear);
+  for (Eigen::Index k = 0; k < svd.values.size(); ++k) {
+    if (svd.values[k] <= kNoDirection) continue;
+    const Eigen::VectorXd u = svd.vectors.col(k);
     quadratic -= u * (u.transpose() * quadratic).eval();
     data -= u * (u.transpose() * data).eval();
   }

@@ -9,6 +9,9 @@
 
 namespace bem {
 
+/// Shape functions of a triangle: the hats of its vertices and the bubbles of its edges.
+inline constexpr int kShapes = 6;
+
 /// The edges of a closed mesh.
 struct MeshEdges {
   explicit MeshEdges(const std::vector<Triangle>& triangles);

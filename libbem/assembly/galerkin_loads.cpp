@@ -8,11 +8,6 @@
 #include <memory>
 
 namespace bem {
-namespace {
-
-constexpr int kShapes = 6;
-
-}  // namespace
 
 /// What tractions on triangles have with one triangle of x, by load cases.
 template <class T>

@@ -9,8 +9,6 @@
 namespace bem {
 namespace {
 
-constexpr int kShapes = 6;
-
 /// What the static hypersingular form of a pair needs: integrals of 1/r and h h^T/r times linear
 /// shape functions of both triangles, 3 by 3; index 3 stands for the sum over all three.
 struct Moments {

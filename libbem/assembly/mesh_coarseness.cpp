@@ -1,12 +1,12 @@
 #include "assembly/mesh_coarseness.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "assembly/coarseness.hpp"
 #include "mesh/mass_properties.hpp"
 
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace bem {
 namespace {
@@ -80,10 +80,10 @@ double largest(const Matrix6& form, const Matrix18& energy) {
   Matrix18 of_all = Matrix18::Zero();
   for (int i = 0; i < 3; ++i) of_all.block<6, 6>(6 * i, 6 * i) = form;
   const Eigen::Matrix<double, 18, 1> scale = energy.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix18> solver(
-      scale.asDiagonal() * of_all * scale.asDiagonal(),
-      scale.asDiagonal() * energy * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-  return std::max(solver.eigenvalues().maxCoeff(), 0.0);
+  const Eigen::VectorXd ratios =
+      generalized_eigenvalues(scale.asDiagonal() * of_all * scale.asDiagonal(),
+                              scale.asDiagonal() * energy * scale.asDiagonal());
+  return std::max(ratios.maxCoeff(), 0.0);
 }
 
 /// The forms of a body along its axes of inertia, where energies of thin bodies are exact, and in
@@ -97,12 +97,12 @@ struct QuadraticFields {
 QuadraticFields quadratic_fields(const TriangleMesh& mesh) {
   const MassProperties mass = mass_properties(mesh, 1);
   const Mat3 moments = 0.5 * mass.inertia.trace() * Mat3::Identity() - mass.inertia;
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(moments);
+  const SymmetricEigensystem axes = symmetric_eigensystem(moments);
   const double size = std::sqrt(moments.trace() / mass.volume);
   std::vector<Vec3> x;
   for (const Vec3& vertex : mesh.vertices)
-    x.emplace_back(axes.eigenvectors().transpose() * (vertex - mass.centre) / size);
-  const Vec3 spread = axes.eigenvalues() / (size * size * mass.volume);
+    x.emplace_back(axes.vectors.transpose() * (vertex - mass.centre) / size);
+  const Vec3 spread = axes.values / (size * size * mass.volume);
   return {SurfaceForms(mesh, x), strain_energy(spread.asDiagonal()), size * size / mass.volume};
 }
 

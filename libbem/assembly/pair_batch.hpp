@@ -89,7 +89,7 @@ class FibreCollector {
   static void set_row(const double* barycentric, double weight, double* to, int stride) {
     const auto shapes = quadratic_shapes(barycentric);
     to[0] = weight;
-    for (int a = 0; a < 6; ++a) to[(a + 1) * stride] = weight * shapes[a];
+    for (int a = 0; a < kShapes; ++a) to[(a + 1) * stride] = weight * shapes[a];
   }
 
   void flush() {

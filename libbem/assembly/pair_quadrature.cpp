@@ -11,7 +11,7 @@
 namespace bem {
 namespace {
 
-constexpr int kDeepest = 24;                      // times that triangles of a pair are halved
+constexpr int kDeepestPair = 24;                  // times that triangles of a pair are halved
 constexpr int kStaticAway = 3, kDynamicAway = 4;  // exact for static kernels, for 1/r in Z
 constexpr int kStaticAlong = 2, kDynamicAlong = 3;
 constexpr double kPerWave = 0.4, kMostForWaves = 4;  // more of them per |s| h/c2
@@ -179,7 +179,7 @@ void PairQuadrature::for_each_part(int tx, int ty, KernelPart kernel,
     const double distance = triangle_distance(pair.x.corners(), pair.y.corners());
     const auto rule_of = [&](const TriangleCell& cell) {
       const int rule = rule_at(distance, cell.longest_edge(), kernel, waves);
-      return rule < 0 && pair.depth >= kDeepest ? kTriangleRuleCount - 1 : rule;
+      return rule < 0 && pair.depth >= kDeepestPair ? kTriangleRuleCount - 1 : rule;
     };
     const int rule_x = rule_of(pair.x), rule_y = rule_of(pair.y);
     if (rule_x >= 0 && rule_y >= 0) {

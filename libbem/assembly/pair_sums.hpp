@@ -10,7 +10,6 @@ namespace bem {
 /// [entry][padded lane].
 template <class T>
 struct PairSums {
-  static constexpr int kShapes = 6;
   static constexpr int kUniform = 12;
 
   T* inertia[kShapes][kShapes];  ///< Z by shapes of y and x, 9 entries; all null: not wanted

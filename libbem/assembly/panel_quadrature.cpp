@@ -7,7 +7,8 @@
 namespace bem {
 namespace {
 
-constexpr int kDeepest = 12;  // a vertex closer than 1e-4 edges is integrated with the finest rule
+constexpr int kDeepestCell =
+    12;  // a vertex closer than 1e-4 edges is integrated with the finest rule
 
 }  // namespace
 
@@ -64,7 +65,7 @@ int PanelQuadrature::cell_rule(int vertex, int triangle, const Cell& cell) const
   const double distance =
       point_triangle_distance(mesh_.vertices[vertex], corner[0], corner[1], corner[2]);
   const int rule = choice_.choose(distance / longest, wave_number_ * longest);
-  return rule < 0 && cell.depth >= kDeepest ? kTriangleRuleCount - 1 : rule;
+  return rule < 0 && cell.depth >= kDeepestCell ? kTriangleRuleCount - 1 : rule;
 }
 
 void PanelQuadrature::add_cell(int vertex, int triangle, const Cell& cell, int rule,

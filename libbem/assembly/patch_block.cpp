@@ -8,8 +8,6 @@
 namespace bem {
 namespace {
 
-constexpr int kShapes = 6;
-
 void set_zero(Entries& entries, Eigen::Index rows, Eigen::Index columns) {
   for (Eigen::MatrixXd& e : entries) e = Eigen::MatrixXd::Zero(rows, columns);
 }

@@ -24,8 +24,8 @@ struct SurfacePatch {
   std::vector<int> nodes;  ///< whose basis functions do not vanish here, ascending
   std::vector<int> hats;  ///< nodes that are corners here, ascending; shapes are hats, then bubbles
   int shape_count = 0;
-  std::vector<std::array<int, 6>> shapes;  ///< by triangle: numbers of hats, then of bubbles
-  SparseRows displacements;                ///< by node: shapes
+  std::vector<std::array<int, kShapes>> shapes;  ///< by triangle: numbers of hats, then of bubbles
+  SparseRows displacements;                      ///< by node: shapes
 
   /// The rule of degree 2 whose points are the midpoints of edges, which triangles share.
   struct Midpoint {

@@ -24,6 +24,11 @@ struct SurfacePoint {
   }
 };
 
+// What the searches for vertex and for edge contacts have in common.
+inline constexpr double kSameSide = 0.5;  ///< cosine above which two normals hold on one side
+inline constexpr double kTurned = 0.9;    ///< cosine above which the normal at the end is taken
+inline constexpr double kRim = 0.1;       ///< width of the rim of a feature, of the margin
+
 enum class ContactKind {
   vertex_plane,
   vertex_triangle,  ///< the vertex is side a, the triangle side b

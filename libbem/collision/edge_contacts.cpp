@@ -14,10 +14,7 @@ namespace {
 
 constexpr double kParallel = 1e-3;  ///< sine of the angle between edges that count as parallel
 constexpr double kFlat = 1e-4;      ///< [rad]
-constexpr double kRim = 0.1;        ///< of the margin: length of an edge that is beside its end
 constexpr double kDeepest = 4;      ///< of the recovery depth
-constexpr double kSameSide = 0.5;   ///< cosine above which two normals hold on one side
-constexpr double kTurned = 0.9;     ///< cosine up to which the normal at the end is taken
 
 /// Both edges at one time, where they can touch.
 struct Approach {

@@ -7,8 +7,8 @@
 namespace bem {
 namespace {
 
-constexpr double kSlack = 0.5;    ///< of the reach
-constexpr double kFlat = 0.5e-4;  ///< [rad]; contacts ask for more
+constexpr double kSlack = 0.5;        ///< of the reach
+constexpr double kFlatEdge = 0.5e-4;  ///< [rad]; contacts ask for more
 
 std::vector<Vec3> normals_of(const std::vector<Triangle>& triangles, const std::vector<Vec3>& x) {
   std::vector<Vec3> normals;
@@ -68,7 +68,8 @@ void SweptSurface::find_ridges() {
   const auto convex = [](const SurfaceTopology::Edge& e, const std::vector<Vec3>& x,
                          const std::vector<Vec3>& normals) {
     const Vec3 edge = x[e.vertices[1]] - x[e.vertices[0]];
-    return normals[e.triangles[0]].cross(normals[e.triangles[1]]).dot(edge) > kFlat * edge.norm();
+    return normals[e.triangles[0]].cross(normals[e.triangles[1]]).dot(edge) >
+           kFlatEdge * edge.norm();
   };
   for (std::size_t e = 0; e < ridges_.size(); ++e) {
     const SurfaceTopology::Edge& edge = topology_.edges[e];

@@ -13,12 +13,8 @@
 namespace bem {
 namespace {
 
-constexpr double kSameSide = 0.5;          ///< least cosine between entered and holding triangle
 constexpr double kSteepest = 0.6;          ///< sine of the steepest way from one to the other
 constexpr double kSameDirection = 0.9998;  ///< cosine above which two normals are one
-
-constexpr double kTurned = 0.9;  ///< cosine up to which the normal at the end is taken
-constexpr double kRim = 0.1;     ///< of the margin
 
 struct Candidate {
   int triangle;

@@ -65,9 +65,9 @@ struct Singles {
 };
 
 /// Goes from entry to entry of a row.
-class Columns {
+class EntryColumns {
  public:
-  explicit Columns(const std::uint8_t* gaps) : at_(gaps) {}
+  explicit EntryColumns(const std::uint8_t* gaps) : at_(gaps) {}
   std::uint32_t next() {
     std::uint32_t gap = *at_;
     if (gap < kTwoBytes) {
@@ -92,7 +92,7 @@ template <class Values>
 float multiply_row(const std::uint8_t* gaps, Values values, std::size_t count, const float* x) {
   constexpr std::size_t kSums = 4;  // additions do not wait for each other
   float sums[kSums] = {};
-  Columns columns(gaps);
+  EntryColumns columns(gaps);
   std::size_t i = 0;
   for (; i + kSums <= count; i += kSums)
     for (std::size_t s = 0; s < kSums; ++s) sums[s] += values[i + s] * x[columns.next()];
@@ -183,7 +183,7 @@ float PackedRows::multiply(std::size_t row, const float* x) const {
 
 template <class F>
 void PackedRows::for_each(std::size_t row, const F& f) const {
-  Columns columns(gaps_.data() + first_gap(row));
+  EntryColumns columns(gaps_.data() + first_gap(row));
   const std::uint8_t* values = values_.data() + value_bytes() * first_value(row);
   const std::size_t count = entries(row);
   if (format_ == PackedFormat::half)

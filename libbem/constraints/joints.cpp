@@ -1,9 +1,8 @@
 #include "constraints/joints.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "dynamics/rotation.hpp"
 #include "scene/motion.hpp"
-
-#include <Eigen/Eigenvalues>
 
 namespace bem {
 namespace {
@@ -14,7 +13,7 @@ bool spread_out(const std::vector<const Joint*>& joints) {
   for (const Joint* j : joints) centre += j->place / static_cast<double>(joints.size());
   Mat3 spread = Mat3::Zero();
   for (const Joint* j : joints) spread += (j->place - centre) * (j->place - centre).transpose();
-  const Vec3 squares = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
+  const Vec3 squares = symmetric_eigensystem(spread).values;
   return squares[1] > JointTolerances::thin * JointTolerances::thin * squares[2];
 }
 

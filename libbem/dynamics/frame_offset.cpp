@@ -1,5 +1,7 @@
 #include "dynamics/frame_offset.hpp"
 
+#include "algebra/decompositions.hpp"
+
 namespace bem {
 
 FrameOffset::FrameOffset(const Scheme& scheme, double dt)
@@ -14,7 +16,7 @@ void FrameOffset::set_leak(const Leak& leak) {
   const StageMatrix one = StageMatrix::Identity(integration_.rows(), integration_.cols());
   const StageMatrix system =
       one + leak.damping * integration_ + leak.stiffness * integration_ * integration_;
-  solve_ = system.inverse();
+  solve_ = inverse(system);
   gain_ = integration_ * solve_ * integration_;
 }
 

@@ -1,5 +1,6 @@
 #include "dynamics/rigid_frame.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "dynamics/rotation.hpp"
 
 namespace bem {
@@ -79,7 +80,7 @@ void RigidFrame::integrate_momenta(const State& now, const State& before, const 
   const std::vector<Vec3> v = s.velocity, l = s.angular_momentum;
   const StageMatrix one = StageMatrix::Identity(count, count);
   const StageMatrix a = w * dt_ * integration_;
-  const StageMatrix linear = (one + 2 * a + a * a).inverse(), angular = (one + 2 * a).inverse();
+  const StageMatrix linear = inverse(one + 2 * a + a * a), angular = inverse(one + 2 * a);
   for (int i = 0; i < count; ++i) {
     s.velocity[i].setZero();
     s.angular_momentum[i].setZero();

@@ -1,11 +1,11 @@
 #include "dynamics/vibration_watch.hpp"
 
+#include "algebra/decompositions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <random>
-
-#include <Eigen/Eigenvalues>
 
 namespace bem {
 namespace {
@@ -38,10 +38,8 @@ Eigen::VectorXd prediction(const Eigen::MatrixXd& y) {
     past.col(p + s).segment(begin, per_signal).setOnes();
     next.segment(begin, per_signal) = y.row(s).tail(per_signal).transpose();
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(1e-10);
-  qr.compute(past);
-  const Eigen::VectorXd c = qr.solve(next);
+  constexpr double kDependent = 1e-10;
+  const Eigen::VectorXd c = least_squares(past, next, kDependent);
   if (!((past * c - next).norm() <= kLargestResidual * next.norm())) return {};
   return c.head(p);
 }
@@ -52,7 +50,7 @@ Eigen::VectorXcd roots(const Eigen::VectorXd& c) {
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(p, p);
   companion.row(0) = c.transpose();
   companion.diagonal(-1).setOnes();
-  return companion.eigenvalues();
+  return eigenvalues(companion);
 }
 
 /// The amplitudes that the motions z^n have at the end, over all signals.
@@ -66,8 +64,7 @@ Eigen::VectorXd end_amplitudes(const Eigen::MatrixXd& y, const Eigen::VectorXcd&
       powers(n, k) = std::pow(z[k], static_cast<double>(n - from));
   }
   powers.rightCols<1>().setOnes();
-  const Eigen::MatrixXcd parts =
-      powers.colPivHouseholderQr().solve(y.transpose().cast<std::complex<double>>());
+  const Eigen::MatrixXcd parts = least_squares(powers, y.transpose().cast<std::complex<double>>());
   Eigen::VectorXd out(z.size());
   for (Eigen::Index k = 0; k < z.size(); ++k)
     out[k] = parts.row(k).norm() * std::abs(powers(steps - 1, k)) * (z[k].imag() == 0 ? 1 : 2);

@@ -13,7 +13,7 @@
 namespace bem {
 namespace {
 
-constexpr std::uint64_t kPiece = 256 << 10;  // stays in the second-level cache
+constexpr std::uint64_t kDigestPiece = 256 << 10;  // stays in the second-level cache
 
 struct FreeState {
   void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
@@ -23,7 +23,7 @@ using State = std::unique_ptr<XXH3_state_t, FreeState>;
 /// Buffers of one worker thread.
 struct Hasher {
   State state{XXH3_createState()};
-  std::vector<char> buffer = std::vector<char>(kPiece);
+  std::vector<char> buffer = std::vector<char>(kDigestPiece);
 };
 
 void read_exactly(int file, char* out, std::uint64_t size, std::uint64_t offset,
@@ -43,8 +43,8 @@ std::string tree_digest(int file, std::uint64_t first, std::uint64_t length,
     thread_local Hasher hasher;
     XXH3_128bits_reset(hasher.state.get());
     const std::uint64_t begin = b * kDigestBlock, end = std::min(length, begin + kDigestBlock);
-    for (std::uint64_t at = begin; at < end; at += kPiece) {
-      const std::uint64_t size = std::min(kPiece, end - at);
+    for (std::uint64_t at = begin; at < end; at += kDigestPiece) {
+      const std::uint64_t size = std::min(kDigestPiece, end - at);
       read_exactly(file, hasher.buffer.data(), size, first + at, path);
       XXH3_128bits_update(hasher.state.get(), hasher.buffer.data(), size);
     }

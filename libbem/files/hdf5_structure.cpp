@@ -13,7 +13,7 @@
 namespace bem {
 namespace {
 
-constexpr int kDeepest = 8;                      // groups in each other
+constexpr int kDeepestGroup = 8;                 // groups in each other
 constexpr int kMostExtents = 4;                  // of a dataset
 constexpr std::uint64_t kMostText = 1 << 16;     // bytes of a text attribute
 constexpr std::uint64_t kMostChunk = 1 << 20;    // bytes
@@ -75,7 +75,7 @@ class Walk {
 
  private:
   void group(hid_t id, const std::string& path, int depth) {
-    if (depth > kDeepest) refuse(path, "is too deep");
+    if (depth > kDeepestGroup) refuse(path, "is too deep");
     std::vector<Link> links;
     if (H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_link, &links) < 0)
       refuse(path, "cannot be listed");

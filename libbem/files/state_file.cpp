@@ -12,8 +12,8 @@
 namespace bem {
 namespace {
 
-constexpr std::string_view kMark = "BEM state 0004\n\n";
-static_assert(kMark.size() == 16);
+constexpr std::string_view kStateMark = "BEM state 0004\n\n";
+static_assert(kStateMark.size() == 16);
 
 void free_digest(XXH3_state_s* state) {
   XXH3_freeState(state);
@@ -30,7 +30,7 @@ std::string canonical(XXH128_hash_t hash) {
 StateWriter::StateWriter(const std::string& path)
     : pending_(path), digest_(XXH3_createState(), free_digest) {
   XXH3_128bits_reset(digest_.get());
-  put(kMark.data(), kMark.size());
+  put(kStateMark.data(), kStateMark.size());
 }
 
 StateWriter::~StateWriter() = default;
@@ -62,8 +62,8 @@ void StateWriter::commit() {
 StateReader::StateReader(const std::string& path)
     : path_(path), file_(std::fopen(path.c_str(), "rb"), std::fclose) {
   if (!file_) unreadable(std::string("cannot be read (") + std::strerror(errno) + ")");
-  std::string mark(kMark.size(), '\0');
-  if (std::fread(mark.data(), 1, mark.size(), file_.get()) != mark.size() || mark != kMark)
+  std::string mark(kStateMark.size(), '\0');
+  if (std::fread(mark.data(), 1, mark.size(), file_.get()) != mark.size() || mark != kStateMark)
     unreadable("is not a checkpoint of this version of bemsim");
   // everything else, the last bytes of which are the digest
   const std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> digest(XXH3_createState(),
@@ -80,7 +80,7 @@ StateReader::StateReader(const std::string& path)
     held.erase(0, done);
   }
   if (held != canonical(XXH3_128bits_digest(digest.get()))) unreadable("is damaged");
-  std::fseek(file_.get(), static_cast<long>(kMark.size()), SEEK_SET);
+  std::fseek(file_.get(), static_cast<long>(kStateMark.size()), SEEK_SET);
 }
 
 void StateReader::bytes(void* data, std::size_t size) {

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMark = ".partial-", kDigits = "0123456789abcdef";
+constexpr std::string_view kTemporaryMark = ".partial-", kDigits = "0123456789abcdef";
 constexpr std::size_t kLength = 16;  // of the random part
 
 std::string random_part() {
@@ -56,7 +56,7 @@ int rename_to_free_name(const char* from, const char* to) {
 
 TemporaryFile::TemporaryFile(const std::string& final_path) : final_path_(final_path) {
   do {
-    path_ = final_path + std::string(kMark) + random_part();
+    path_ = final_path + std::string(kTemporaryMark) + random_part();
     file_ = FileDescriptor(
         ::open(path_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC, 0666));
     if (!file_ && errno == EEXIST) continue;
@@ -98,11 +98,11 @@ void TemporaryFile::publish(ExistingFile existing) {
 }
 
 std::string_view TemporaryFile::final_name(std::string_view name) {
-  if (name.size() <= kMark.size() + kLength) return name;
+  if (name.size() <= kTemporaryMark.size() + kLength) return name;
   const std::string_view start = name.substr(0, name.size() - kLength);
-  const bool temporary = start.substr(start.size() - kMark.size()) == kMark &&
+  const bool temporary = start.substr(start.size() - kTemporaryMark.size()) == kTemporaryMark &&
                          name.find_first_not_of(kDigits, start.size()) == std::string_view::npos;
-  return temporary ? start.substr(0, start.size() - kMark.size()) : name;
+  return temporary ? start.substr(0, start.size() - kTemporaryMark.size()) : name;
 }
 
 void TemporaryFile::remove_abandoned(const std::string& final_path) {

@@ -1,10 +1,10 @@
 #include "kernels/contour.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "base/error.hpp"
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fftw3.h>
 
 namespace bem {
@@ -82,11 +82,10 @@ ContourQuadrature::ContourQuadrature(const Scheme& scheme, int last_lag)
 ContourQuadrature::~ContourQuadrature() = default;
 
 ContourQuadrature::Point ContourQuadrature::spectral_point(Complex zeta) const {
-  const Eigen::ComplexEigenSolver<StageMatrixC> solver(scheme_.delta(zeta));
-  const StageMatrixC vectors = solver.eigenvectors();
-  const StageMatrixC inverse = vectors.inverse();
+  const Eigensystem spectrum = eigensystem(scheme_.delta(zeta));
+  const StageMatrixC vectors = spectrum.vectors, inverse = bem::inverse(spectrum.vectors);
   Point p;
-  p.eigenvalues = solver.eigenvalues();
+  p.eigenvalues = spectrum.values;
   for (int e = 0; e < scheme_.stages(); ++e) {
     // a root at zeta = 1 may come out with a real part of -1e-17
     if (p.eigenvalues[e].real() < 0) p.eigenvalues[e].real(0);

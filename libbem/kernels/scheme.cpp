@@ -1,13 +1,12 @@
 #include "kernels/scheme.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "base/error.hpp"
 #include "kernels/contour.hpp"
 
 #include <charconv>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Eigenvalues>
 
 namespace bem {
 
@@ -49,7 +48,7 @@ Scheme Scheme::radau3() {
   s.integration_ << (88 - 7 * r) / 360, (296 - 169 * r) / 1800, (-2 + 3 * r) / 225,
       (296 + 169 * r) / 1800, (88 + 7 * r) / 360, (-2 - 3 * r) / 225, (16 - r) / 36, (16 + r) / 36,
       1.0 / 9;
-  const StageMatrix inverse = s.integration_.inverse();
+  const StageMatrix inverse = bem::inverse(s.integration_);
   StageMatrix last = StageMatrix::Zero(3, 3);
   last.col(2).setOnes();
   s.delta_ = {inverse, -inverse * last};
@@ -64,14 +63,14 @@ Scheme Scheme::radau3() {
 /// denominator, which makes them polynomials of degree s - 1. Their product is interpolated at
 /// 2 s - 1 nodes.
 void Scheme::set_interpolated_components(const std::vector<double>& nodes) {
-  const StageMatrix inverse = integration_.inverse();
+  const StageMatrix inverse = bem::inverse(integration_);
   const StageMatrix one = StageMatrix::Identity(stages(), stages());
   const StageVector start = inverse * StageVector::Ones(stages());
   Eigen::MatrixXd products(stages() * stages(), static_cast<Eigen::Index>(nodes.size()));
   for (std::size_t m = 0; m < nodes.size(); ++m) {
     LagComponent c{start, one.col(stages() - 1)};  // at infinity
     if (std::isfinite(nodes[m])) {
-      const StageMatrix resolvent = (nodes[m] * one - inverse).inverse();
+      const StageMatrix resolvent = bem::inverse(nodes[m] * one - inverse);
       c = {resolvent * start, resolvent.row(stages() - 1).transpose()};
     }
     c.left.normalize();
@@ -81,7 +80,7 @@ void Scheme::set_interpolated_components(const std::vector<double>& nodes) {
           c.left[a] * c.right;
     components_.push_back(c);
   }
-  extraction_ = products.completeOrthogonalDecomposition().pseudoInverse();
+  extraction_ = pseudo_inverse(products);
 }
 
 Scheme Scheme::multistep(double theta) {
@@ -149,16 +148,15 @@ StageMatrixC Scheme::delta(Complex zeta) const {
 }
 
 void Scheme::set_initial_components() {
-  const Eigen::ComplexEigenSolver<StageMatrixC> solver(delta(0));
-  const StageMatrixC vectors = solver.eigenvectors();
-  const StageMatrixC inverse = vectors.inverse();
+  const Eigensystem spectrum = eigensystem(delta(0));
+  const Eigen::MatrixXcd inverse = bem::inverse(spectrum.vectors);
   for (int i = 0; i < stages(); ++i) {
-    const Complex value = solver.eigenvalues()[i];
+    const Complex value = spectrum.values[i];
     const bool real = std::abs(value.imag()) < 1e-12 * std::abs(value);
     if (!real && value.imag() < 0) continue;  // stands for its conjugate
     InitialComponent c;
     c.eigenvalue = real ? Complex(value.real()) : value;
-    c.left = vectors.col(i);
+    c.left = spectrum.vectors.col(i);
     c.right = inverse.row(i).transpose();
     c.paired = !real;
     initial_.push_back(c);

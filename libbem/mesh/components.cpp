@@ -97,6 +97,11 @@ std::vector<Component> surface_components(const TriangleMesh& nodes) {
   return components;
 }
 
+bool encloses_volume(double volume, double area, double size) {
+  constexpr double kZeroVolumeRatio = 1e-10;
+  return std::abs(volume) > kZeroVolumeRatio * area * size;
+}
+
 void turn_over(TriangleMesh& nodes, Component& component) {
   for (int t : component.triangles) std::swap(nodes.triangles[t][1], nodes.triangles[t][2]);
   component.volume = -component.volume;

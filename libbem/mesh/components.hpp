@@ -24,6 +24,10 @@ struct Component {
 /// triangle. O(n log n), and O(n) for every pair of components whose boxes overlap.
 std::vector<Component> surface_components(const TriangleMesh& nodes);
 
+/// Whether a closed surface encloses more than rounding, which leaves 1e-16 of area times size:
+/// its volume [m^3], area [m^2] and size [m].
+bool encloses_volume(double volume, double area, double size);
+
 /// Turns the component's normals around: its triangles {a, b, c} become {a, c, b}.
 void turn_over(TriangleMesh& nodes, Component& component);
 

@@ -11,7 +11,7 @@ namespace {
 /// Bounds are enlarged by this part, so that rounding never discards the farthest pair.
 constexpr double kRoundingMargin = 1e-12;
 
-struct Cell {
+struct GridCell {
   int begin = 0, end = 0;
   int left = -1, right = -1;
   Vec3 ball_centre = Vec3::Zero();
@@ -58,8 +58,8 @@ class DiameterSearch {
     return index;
   }
 
-  Cell bounded_cell(int begin, int end, const BoundingBox& box) const {
-    Cell cell;
+  GridCell bounded_cell(int begin, int end, const BoundingBox& box) const {
+    GridCell cell;
     cell.begin = begin;
     cell.end = end;
     cell.ball_centre = box.centre();
@@ -83,7 +83,7 @@ class DiameterSearch {
   }
 
   /// No point of cell a is farther than this from a point of cell b.
-  double upper_bound(const Cell& a, const Cell& b) const {
+  double upper_bound(const GridCell& a, const GridCell& b) const {
     const double by_ball = (a.ball_centre - b.ball_centre).norm() + a.ball_radius + b.ball_radius;
     const double widest = angle(a.direction, b.direction) + a.half_angle + b.half_angle;
     // |x - y|^2 = |x|^2 + |y|^2 - 2 |x| |y| cos(angle) grows with the angle.
@@ -110,8 +110,8 @@ class DiameterSearch {
   }
 
   void search(int a, int b) {
-    const Cell& p = cells_[a];
-    const Cell& q = cells_[b];
+    const GridCell& p = cells_[a];
+    const GridCell& q = cells_[b];
     const double bound = upper_bound(p, q);
     if (bound * bound <= best_squared_) return;
     if (p.left < 0 && q.left < 0) {
@@ -129,7 +129,7 @@ class DiameterSearch {
     }
   }
 
-  void compare_points(const Cell& p, const Cell& q) {
+  void compare_points(const GridCell& p, const GridCell& q) {
     for (int i = p.begin; i < p.end; ++i)
       for (int j = q.begin; j < q.end; ++j)
         best_squared_ = std::max(best_squared_, (points_[i] - points_[j]).squaredNorm());
@@ -137,7 +137,7 @@ class DiameterSearch {
 
   std::vector<Vec3> points_;
   Vec3 origin_;
-  std::vector<Cell> cells_;
+  std::vector<GridCell> cells_;
   double best_squared_ = 0;
 };
 

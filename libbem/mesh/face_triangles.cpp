@@ -12,7 +12,7 @@ namespace {
 constexpr double kSliver = 1e-4;     ///< height over longest edge; float32 makes 1e-7 of straight
 constexpr double kTie = 1e-4;        ///< relative difference of two diagonals that is none
 constexpr double kFlatness = 1e-3;   ///< distance from the plane over size
-constexpr double kRounding = 1e-10;  ///< relative to size: areas below it are none
+constexpr double kZeroArea = 1e-10;  ///< relative to size: areas below it are none
 
 std::vector<Triangle> fan_of(int corners) {
   std::vector<Triangle> fan;
@@ -46,7 +46,7 @@ void FaceTriangles::find_normal() {
     size_ = std::max(size_, (points_[k] - points_[0]).norm());
     area += area_vector(points_[0], points_[k - 1], points_[k]);
   }
-  if (area.norm() > kRounding * size_ * size_) normal_ = area.normalized();
+  if (area.norm() > kZeroArea * size_ * size_) normal_ = area.normalized();
 }
 
 void FaceTriangles::index_edges() {
@@ -93,7 +93,7 @@ bool FaceTriangles::is_line() const {
         return (a - points_[0]).squaredNorm() < (b - points_[0]).squaredNorm();
       });
   return std::all_of(points_.begin(), points_.end(), [&](const Vec3& p) {
-    return area_vector(points_[0], far, p).norm() <= kRounding * size_ * size_;
+    return area_vector(points_[0], far, p).norm() <= kZeroArea * size_ * size_;
   });
 }
 

@@ -70,7 +70,7 @@ TriangleMesh fish(double length, int segments) {
     throw Error(ErrorCode::usage, "shape: a fish needs 8 to 1000 segments");
   double girth = 0;
   for (int i = 0; i <= 100; ++i) girth = std::fmax(girth, section(0.01 * i).mean_radius());
-  std::vector<ProfilePoint> profile;
+  std::vector<MeridianPoint> profile;
   for (double s : stations(2 * kPi * girth / segments))
     profile.push_back({s > 0 && s < 1 ? section(s).mean_radius() : 0.0, 1 - s});
   TriangleMesh mesh = revolve(profile, segments);

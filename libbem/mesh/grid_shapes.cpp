@@ -129,11 +129,11 @@ TriangleMesh lattice_surface(const std::array<int, 3>& cells,
   return LatticeSurface(cells, filled).build();
 }
 
-TriangleMesh revolve(const std::vector<ProfilePoint>& profile, int segments) {
+TriangleMesh revolve(const std::vector<MeridianPoint>& profile, int segments) {
   require(profile.size() >= 3 && profile.front().radius == 0 && profile.back().radius == 0,
           "a profile runs from pole to pole");
   double largest = 0;
-  for (const ProfilePoint& p : profile) largest = std::max(largest, p.radius);
+  for (const MeridianPoint& p : profile) largest = std::max(largest, p.radius);
   TriangleMesh mesh;
   Ring below{};
   for (std::size_t r = 0; r < profile.size(); ++r) {

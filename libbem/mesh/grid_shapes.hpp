@@ -17,7 +17,7 @@ TriangleMesh lattice_surface(const std::array<int, 3>& cells,
                              const std::function<bool(int, int, int)>& filled);
 
 /// Distance from the z axis and height [m].
-struct ProfilePoint {
+struct MeridianPoint {
   double radius;
   double height;
 };
@@ -25,6 +25,6 @@ struct ProfilePoint {
 /// Surface swept by a profile that runs from one pole (radius 0) to another, with the body on its
 /// left when the radius points right. Rings get vertices in proportion to their radius, `segments`
 /// at the largest, so that triangles stay of one size towards the poles.
-TriangleMesh revolve(const std::vector<ProfilePoint>& profile, int segments);
+TriangleMesh revolve(const std::vector<MeridianPoint>& profile, int segments);
 
 }  // namespace bem

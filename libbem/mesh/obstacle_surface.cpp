@@ -15,9 +15,6 @@
 namespace bem {
 namespace {
 
-/// A closed part whose volume is below this part of area times size has none.
-constexpr double kZeroVolumeRatio = 1e-10;
-
 bool has_area(const TriangleMesh& mesh, const Triangle& t) {
   return height_ratio(mesh, t) >= kZeroHeightRatio;
 }
@@ -125,7 +122,7 @@ class ObstacleParts {
       area += area_vector(p, q, r).norm();
       size = std::max({size, p.norm(), q.norm(), r.norm()});
     }
-    return std::abs(volume) > kZeroVolumeRatio * area * size;
+    return encloses_volume(volume, area, size);
   }
 
   void append(const Part& part, TriangleMesh& mesh) {

@@ -3,13 +3,8 @@
 #include "base/error.hpp"
 #include "mesh/describe.hpp"
 
-#include <cmath>
-
 namespace bem {
 namespace {
-
-/// A component whose volume is below this part of area times size has none (rounding leaves 1e-16).
-constexpr double kZeroVolumeRatio = 1e-10;
 
 std::string first_triangle(const TriangleMesh& input, const Component& component) {
   return triangle_text(input, component.triangles.front());
@@ -20,7 +15,7 @@ void refuse_flat(const TriangleMesh& input, const std::vector<Component>& compon
   std::size_t count = 0;
   const Component* first = nullptr;
   for (const Component& c : components) {
-    if (std::abs(c.volume) > kZeroVolumeRatio * c.area * c.box.diagonal()) continue;
+    if (encloses_volume(c.volume, c.area, c.box.diagonal())) continue;
     if (count++ == 0) first = &c;
   }
   if (count == 0) return;

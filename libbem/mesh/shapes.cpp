@@ -75,7 +75,7 @@ class Random {
 };
 
 /// `count` points from `from` to `to`, without `from` itself.
-void append_profile(std::vector<ProfilePoint>& profile, ProfilePoint from, ProfilePoint to,
+void append_profile(std::vector<MeridianPoint>& profile, MeridianPoint from, MeridianPoint to,
                     int count) {
   for (int i = 1; i <= count; ++i) {
     const double s = static_cast<double>(i) / count;
@@ -138,7 +138,7 @@ TriangleMesh cylinder(double radius, double height, int segments, int rings) {
   check(segments >= 3 && rings >= 1, "a cylinder needs at least 3 segments and 1 ring");
   const int cap_rings = std::max(1, (segments + 3) / 6);
   const double half = 0.5 * height;
-  std::vector<ProfilePoint> profile{{0, -half}};
+  std::vector<MeridianPoint> profile{{0, -half}};
   append_profile(profile, {0, -half}, {radius, -half}, cap_rings);
   append_profile(profile, {radius, -half}, {radius, half}, rings);
   append_profile(profile, {radius, half}, {0, half}, cap_rings);
@@ -170,9 +170,9 @@ TriangleMesh bowl(double radius, double thickness, int segments) {
   const int quarter = std::max(2, cells(0.5 * kPi * radius));
   const auto arc = [](double r, int i, int n) {
     const double angle = 0.5 * kPi * i / n;  // from the bottom
-    return ProfilePoint{i == 0 ? 0.0 : r * std::sin(angle), i == n ? 0.0 : -r * std::cos(angle)};
+    return MeridianPoint{i == 0 ? 0.0 : r * std::sin(angle), i == n ? 0.0 : -r * std::cos(angle)};
   };
-  std::vector<ProfilePoint> profile;
+  std::vector<MeridianPoint> profile;
   for (int i = 0; i <= quarter; ++i) profile.push_back(arc(radius, i, quarter));
   append_profile(profile, {radius, 0}, {inner, 0}, cells(thickness));
   // As many arcs inside as outside: the wall stays thicker than the facets' sagging.

@@ -1,11 +1,12 @@
 #include "model/balance.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "algebra/gmres.hpp"
 #include "base/error.hpp"
 #include "compress/complex_product.hpp"
 #include "model/elastic_system.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/LU>
 
 namespace bem {
 namespace {
@@ -154,8 +155,7 @@ Columns body_force(const BodyModel& model) {
 
 /// Orthonormal rows that span those of Pi.
 Columns orthonormal_rigid(const Columns& rigid) {
-  const Eigen::HouseholderQR<Columns> qr(rigid.transpose());
-  return qr.householderQ() * Columns::Identity(rigid.cols(), rigid.rows());
+  return orthonormal_basis(rigid.transpose());
 }
 
 /// Galerkin matrices without a history balance forces and torques exactly: rigid motions are the

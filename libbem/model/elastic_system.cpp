@@ -163,8 +163,8 @@ Eigen::MatrixXcd ElasticSystem::remove_rigid(int component, const Eigen::MatrixX
   Eigen::MatrixXcd z(6, u.cols());
   for (Eigen::Index c = 0; c < u.cols(); ++c) {  // each column on its own: same bits always
     projection_.project(component, u.col(c));
-    const Eigen::VectorXcd inertia = frame_balance_->body_force(component).transpose() * u.col(c);
-    const Eigen::VectorXcd load = b.col(c);
+    const Eigen::MatrixXcd inertia = frame_balance_->body_force(component).transpose() * u.col(c);
+    const Eigen::MatrixXcd load = b.col(c);
     z.col(c) = frame_balance_->accelerations(component, inertia, frame_balance_->moments(load));
   }
   return z;
@@ -199,6 +199,11 @@ Eigen::MatrixXd ElasticSystem::stages(const std::vector<Eigen::VectorXcd>& spect
 
 Eigen::MatrixXd ElasticSystem::displacement_stages(const SpectralState& state) const {
   return stages(state.displacement);
+}
+
+void ElasticSystem::subtract_balance(const InputColumns& columns, const Eigen::MatrixXd& stages,
+                                     Eigen::MatrixXd& accelerations) const {
+  accelerations.noalias() -= columns.balanced_acceleration * stages;
 }
 
 Eigen::MatrixXd ElasticSystem::without_rounding(const Eigen::MatrixXd& displacements) const {

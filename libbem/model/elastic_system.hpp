@@ -84,9 +84,7 @@ class ElasticSystem {
   /// (a', alpha) minus its balanced value at the stages (6 x s) that inputs contribute; what the
   /// history contributes is acceleration_stages() of its state.
   void subtract_balance(const InputColumns& columns, const Eigen::MatrixXd& stages,
-                        Eigen::MatrixXd& accelerations) const {
-    accelerations.noalias() -= columns.balanced_acceleration * stages;
-  }
+                        Eigen::MatrixXd& accelerations) const;
   const RigidProjection& projection() const { return projection_; }
   /// What accelerates the frame in the inertial form; elsewhere null: the projection.
   const FrameBalance* frame_balance() const { return frame_balance_ ? &*frame_balance_ : nullptr; }

@@ -20,28 +20,20 @@ class FrameBalance {
   /// R, 3N x 6.
   const Eigen::MatrixXd& rigid_motions() const { return rigid_; }
   /// R^T b, forces [N] and torques [N m] of the columns of b (3N x n).
-  template <class Matrix>
-  Matrix moments(const Matrix& b) const {
-    return rigid_.transpose() * b;
-  }
+  Eigen::MatrixXd moments(const Eigen::MatrixXd& b) const;
+  Eigen::MatrixXcd moments(const Eigen::MatrixXcd& b) const;
   /// F_0 of an initial component, 3N x 6.
   const Eigen::MatrixXcd& body_force(int component) const {
     return model_.initial_body_force[component];
   }
   /// H_0^{-1} F_0 = -R/sigma, 3N x 6.
-  Eigen::MatrixXcd response(int component) const {
-    return -1.0 / sigma_[component] * rigid_.cast<Complex>();
-  }
+  Eigen::MatrixXcd response(int component) const;
   /// What forces b (3N x n) move the body rigidly: the part of H_0^{-1} b that a stored inverse
   /// lacks.
-  Eigen::MatrixXcd moved(int component, const Eigen::MatrixXcd& b) const {
-    return response(component) * (inverse_[component].transpose() * moments(b));
-  }
+  Eigen::MatrixXcd moved(int component, const Eigen::MatrixXcd& b) const;
   /// z (6 x n) from F_0^T u and R^T b.
   Eigen::MatrixXcd accelerations(int component, const Eigen::MatrixXcd& inertia,
-                                 const Eigen::MatrixXcd& moments) const {
-    return inverse_[component] * (moments + sigma_[component] * inertia);
-  }
+                                 const Eigen::MatrixXcd& moments) const;
 
  private:
   const BodyModel& model_;

@@ -1,5 +1,6 @@
 #include "model/growth.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "model/rigid_projection.hpp"
 
 #include <algorithm>
@@ -7,8 +8,6 @@
 #include <complex>
 #include <numeric>
 #include <random>
-
-#include <Eigen/Eigenvalues>
 
 namespace bem {
 namespace {
@@ -25,8 +24,8 @@ class FreeRecursion {
         dt_(model.discretisation.dt) {
     if (!model.stiffness) return;
     rigid_modes_ = orthonormal_rigid_modes(model.geometry.nodes);
-    rigid_part_ =
-        (system_.projection().rigid() * rigid_modes_).inverse() * system_.projection().rigid();
+    const Eigen::MatrixXd& rigid = system_.projection().rigid();
+    rigid_part_ = inverse(rigid * rigid_modes_) * rigid;
   }
 
   Eigen::Index size() const { return length_ * step_size(); }
@@ -106,21 +105,20 @@ class KrylovSpace {
   /// The largest growth factor in the space, and the residual of its motion.
   GrowthEstimate largest() const {
     const int m = size();
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(restricted_.topLeftCorner(m, m));
+    const Eigensystem motions = restricted_motions();
     GrowthEstimate out;
     Eigen::Index i = 0;
-    out.factor = solver.eigenvalues().cwiseAbs().maxCoeff(&i);
-    out.frequency = std::abs(std::arg(solver.eigenvalues()[i])) / (2 * kPi);
-    out.residual =
-        std::abs(restricted_(m, m - 1) * solver.eigenvectors().col(i).normalized()[m - 1]);
+    out.factor = motions.values.cwiseAbs().maxCoeff(&i);
+    out.frequency = std::abs(std::arg(motions.values[i])) / (2 * kPi);
+    out.residual = std::abs(restricted_(m, m - 1) * motions.vectors.col(i).normalized()[m - 1]);
     return out;
   }
 
   /// Keeps the motions with the `count` largest factors, or one more to keep a pair together.
   void cut(int count) {
     const int m = size();
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(restricted_.topLeftCorner(m, m));
-    const Eigen::VectorXd factors = solver.eigenvalues().cwiseAbs();
+    const Eigensystem motions = restricted_motions();
+    const Eigen::VectorXd factors = motions.values.cwiseAbs();
     std::vector<int> order(m);
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
@@ -128,19 +126,22 @@ class KrylovSpace {
     std::vector<Eigen::VectorXd> columns;
     for (int i : order) {
       if (static_cast<int>(columns.size()) >= count) break;
-      const double imaginary = solver.eigenvalues()[i].imag();
+      const double imaginary = motions.values[i].imag();
       if (imaginary < 0) continue;  // the conjugate stands for the pair
-      columns.emplace_back(solver.eigenvectors().col(i).real());
-      if (imaginary > 0) columns.emplace_back(solver.eigenvectors().col(i).imag());
+      columns.emplace_back(motions.vectors.col(i).real());
+      if (imaginary > 0) columns.emplace_back(motions.vectors.col(i).imag());
     }
     const auto kept = static_cast<Eigen::Index>(columns.size());
     Eigen::MatrixXd invariant(m, kept);
     for (Eigen::Index i = 0; i < kept; ++i) invariant.col(i) = columns[i];
-    change_basis(Eigen::HouseholderQR<Eigen::MatrixXd>(invariant).householderQ() *
-                 Eigen::MatrixXd::Identity(m, kept));
+    change_basis(orthonormal_basis(invariant));
   }
 
  private:
+  Eigensystem restricted_motions() const {
+    return eigensystem(restricted_.topLeftCorner(size(), size()));
+  }
+
   /// `y`: orthonormal basis (size() x kept) of an invariant space of the restricted recursion.
   void change_basis(const Eigen::MatrixXd& y) {
     const int m = size();

@@ -1,5 +1,6 @@
 #include "model/initial_inverse.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "base/parallel.hpp"
 #include "compress/complex_product.hpp"
 
@@ -8,8 +9,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-
-#include <Eigen/SVD>
 
 namespace bem {
 namespace {
@@ -69,7 +68,7 @@ class RigidPart {
   RigidPart(const DenseMatrix<T>& forces, DenseMatrix<T> response)
       : forces_(forces),
         response_(std::move(response)),
-        inverse_((forces_.transpose() * response_).inverse()) {}
+        inverse_(bem::inverse(DenseMatrix<T>(forces_.transpose() * response_))) {}
 
   /// Of H_0^{-1}.
   void remove_from_inverse(DenseMatrix<T>& inverse) const {
@@ -82,8 +81,7 @@ class RigidPart {
   }
 
  private:
-  DenseMatrix<T> forces_, response_;
-  Eigen::Matrix<T, 6, 6> inverse_;
+  DenseMatrix<T> forces_, response_, inverse_;
 };
 
 /// F_0 of the component whose matrices come next.
@@ -199,7 +197,7 @@ double pair_response(const BodyModel& model, const DenseMatrix<T>& inverse, cons
                                          .block<6, 3>(static_cast<Eigen::Index>(3 * i),
                                                       3 * nodes[i + static_cast<std::size_t>(c)])
                                          .cast<Complex>();
-    pairs.push_back(Eigen::JacobiSVD<Eigen::MatrixXcd>(pair).singularValues()[5]);
+    pairs.push_back(singular_system(pair).values[5]);
   }
   const auto middle = pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() / 2);
   std::nth_element(pairs.begin(), middle, pairs.end());

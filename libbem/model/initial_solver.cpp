@@ -1,5 +1,6 @@
 #include "model/initial_solver.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "algebra/gmres.hpp"
 #include "algebra/lu.hpp"
 #include "base/error.hpp"
@@ -9,8 +10,6 @@
 
 #include <algorithm>
 #include <numeric>
-
-#include <Eigen/LU>
 
 namespace bem {
 namespace {
@@ -74,7 +73,7 @@ class BlockDiagonal {
       std::vector<int> indices(3 * static_cast<std::size_t>(ranges_[i].size()));
       std::iota(indices.begin(), indices.end(), 3 * ranges_[i].begin);
       const DenseMatrix<T> block = Working<T>::block(h, indices);
-      inverses_[i] = block.partialPivLu().inverse().template cast<Stored>();
+      inverses_[i] = bem::inverse(block).template cast<Stored>();
       if (!inverses_[i].allFinite())
         throw Error(ErrorCode::numerical,
                     "the diagonal blocks of H_0 cannot be inverted: the matrices are of no body, "

@@ -1,5 +1,6 @@
 #include "model/motion_history.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "model/body_model.hpp"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ MotionHistory::MotionHistory(const BodyModel& model, double window)
   const double dt = model.discretisation.dt;
   acceleration_ = series[0] / (dt * dt);
   for (std::size_t j = 1; j < series.size(); ++j)
-    forward_.emplace_back(-(series[0].inverse() * series[j]));
+    forward_.emplace_back(-(StageMatrix(inverse(series[0])) * series[j]));
   past_.assign(forward_.size(), unaccelerated_);
 }
 

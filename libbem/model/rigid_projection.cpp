@@ -1,5 +1,6 @@
 #include "model/rigid_projection.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "base/error.hpp"
 #include "mesh/shape_weights.hpp"
 
@@ -33,21 +34,27 @@ Eigen::MatrixXd rigid_motions(const std::vector<Vec3>& points) {
 }
 
 Eigen::MatrixXd orthonormal_rigid_modes(const TriangleMesh& mesh) {
-  const Eigen::MatrixXd rigid = rigid_motions(mesh.vertices);
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(rigid).householderQ() *
-         Eigen::MatrixXd::Identity(rigid.rows(), 6);
+  return orthonormal_basis(rigid_motions(mesh.vertices));
 }
 
 RigidProjection::RigidProjection(Eigen::MatrixXd rigid, std::vector<Eigen::MatrixXcd> body_response)
     : rigid_(std::move(rigid)), response_(std::move(body_response)) {
   for (const Eigen::MatrixXcd& b : response_) {
-    const Eigen::Matrix<Complex, 6, 6> m = rigid_ * b;
-    inverse_.push_back(m.inverse());
+    inverse_.emplace_back(inverse(Eigen::MatrixXcd(rigid_ * b)));
     if (!inverse_.back().allFinite())
       throw Error(ErrorCode::numerical,
                   "forces do not move the body: the matrices are of no body, make the archive "
                   "again with bemprecomp");
   }
+}
+
+Eigen::MatrixXcd RigidProjection::accelerations(int component, const Eigen::MatrixXcd& v) const {
+  return accelerations_of_rigid(component, rigid_ * v);
+}
+
+Eigen::MatrixXcd RigidProjection::accelerations_of_rigid(int component,
+                                                         const Eigen::MatrixXcd& moved) const {
+  return inverse_[component] * moved;
 }
 
 Eigen::MatrixXcd RigidProjection::project(int component, Eigen::Ref<Eigen::MatrixXcd> v) const {

@@ -27,12 +27,8 @@ class RigidProjection {
   Eigen::MatrixXcd project(int component, Eigen::Ref<Eigen::MatrixXcd> v) const;
 
   /// z (6 x n) alone, of displacements or of what Pi makes of them (6 x n).
-  Eigen::MatrixXcd accelerations(int component, const Eigen::MatrixXcd& v) const {
-    return accelerations_of_rigid(component, rigid_ * v);
-  }
-  Eigen::MatrixXcd accelerations_of_rigid(int component, const Eigen::MatrixXcd& moved) const {
-    return inverse_[component] * moved;
-  }
+  Eigen::MatrixXcd accelerations(int component, const Eigen::MatrixXcd& v) const;
+  Eigen::MatrixXcd accelerations_of_rigid(int component, const Eigen::MatrixXcd& moved) const;
   /// B = H_0^{-1} [D_0 Q_0], 3N x 6.
   const Eigen::MatrixXcd& response(int component) const { return response_[component]; }
   const Eigen::MatrixXd& rigid() const { return rigid_; }
@@ -40,7 +36,7 @@ class RigidProjection {
  private:
   Eigen::MatrixXd rigid_;
   std::vector<Eigen::MatrixXcd> response_;
-  std::vector<Eigen::Matrix<Complex, 6, 6>> inverse_;
+  std::vector<Eigen::Matrix<Complex, 6, 6>> inverse_;  ///< of Pi B
 };
 
 }  // namespace bem

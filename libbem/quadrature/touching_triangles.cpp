@@ -10,7 +10,7 @@ namespace bem {
 namespace {
 
 constexpr int kFewest = 3, kMost = 10;  // Gauss points per direction
-constexpr int kDeepest = 60;            // times that a box is halved
+constexpr int kDeepestBox = 60;         // times that a box is halved
 /// The error of n Gauss points relative to rho^-2n, for the kernels of elastostatics.
 constexpr double kErrorScale = 10;
 
@@ -123,7 +123,7 @@ class RuleMaker {
         const std::array<int, 3> counts = point_counts(region, box);
         const int most = static_cast<int>(std::max_element(counts.begin() + first_, counts.end()) -
                                           counts.begin());
-        if (counts[most] > kMost && box.depth < kDeepest) {
+        if (counts[most] > kMost && box.depth < kDeepestBox) {
           boxes.push_back(box.half(most, 1));
           boxes.push_back(box.half(most, 0));
         } else {

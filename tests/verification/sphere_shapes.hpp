@@ -1,5 +1,6 @@
 #pragma once
 
+#include "algebra/decompositions.hpp"
 #include "mesh/triangle_mesh.hpp"
 
 #include <map>
@@ -44,8 +45,7 @@ class SphereShapes {
 
  private:
   static Eigen::MatrixXcd orthonormal(const Eigen::MatrixXcd& m) {
-    return Eigen::HouseholderQR<Eigen::MatrixXcd>(m).householderQ() *
-           Eigen::MatrixXcd::Identity(m.rows(), m.cols());
+    return bem::orthonormal_basis(m);
   }
 
   std::map<std::string, Eigen::MatrixXcd> bases_;

@@ -1,6 +1,7 @@
 // Bodies that rotate: stretched by the centrifugal force, deformed by the gyroscopic one when they
 // tumble, and turned as Euler's equations say. Printed figures are quoted in docs/accuracy.md,
 // "Rotating bodies".
+#include "algebra/decompositions.hpp"
 #include "base/symmetric_matrix.hpp"
 #include "dynamics/rotation.hpp"
 #include "support/simulate.hpp"
@@ -48,7 +49,7 @@ double relative(const Eigen::VectorXd& u, const Eigen::VectorXd& exact) {
 Eigen::VectorXd deformation(const BodyGeometry& g, const Eigen::VectorXd& u) {
   Eigen::MatrixXd rigid(u.size(), 6);
   rigid << translations(g.nodes), rotations(g.nodes);
-  return u - rigid * rigid.colPivHouseholderQr().solve(u);
+  return u - rigid * least_squares(rigid, u);
 }
 
 template <class Field>

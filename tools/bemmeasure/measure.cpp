@@ -1,5 +1,6 @@
 #include "measure.hpp"
 
+#include "algebra/decompositions.hpp"
 #include "collision/self_penetration.hpp"
 #include "collision/surface_overlap.hpp"
 #include "files/pending_file.hpp"
@@ -35,7 +36,7 @@ double kinetic_energy(const TriangleMesh& body, const std::vector<Vec3>& velocit
     places.row(i) << 1, (body.vertices[v] - mass.centre).transpose();
     values.row(i) = velocities[v].transpose();
   }
-  const Eigen::MatrixXd field = places.colPivHouseholderQr().solve(values);
+  const Eigen::MatrixXd field = least_squares(places, values);
   const Mat3 second = (0.5 * mass.inertia.trace() * Mat3::Identity() - mass.inertia) / mass.volume;
   const Mat3 gradient = field.bottomRows<3>().transpose();
   return 0.5 * (field.row(0).squaredNorm() + (gradient * second * gradient.transpose()).trace());

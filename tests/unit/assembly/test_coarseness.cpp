@@ -1,3 +1,4 @@
+#include "algebra/decompositions.hpp"
 #include "assembly/coarseness.hpp"
 #include "assembly/galerkin_static.hpp"
 #include "assembly/mesh_coarseness.hpp"
@@ -74,7 +75,7 @@ FieldNorms norms_by_quadrature(const TriangleMesh& mesh, const Eigen::VectorXd& 
       rigid.block<3, 3>(row, 3) = -root * cross_matrix(x);
     }
   }
-  return {b.norm(), (u - rigid * rigid.colPivHouseholderQr().solve(u)).norm()};
+  return {b.norm(), (u - rigid * least_squares(rigid, u)).norm()};
 }
 
 }  // namespace

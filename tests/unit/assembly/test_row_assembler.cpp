@@ -1,8 +1,8 @@
+#include "algebra/decompositions.hpp"
 #include "support/bodies.hpp"
 #include "support/lag_matrices.hpp"
 #include "support/laplace_assembly.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
 using namespace bem;
@@ -40,11 +40,11 @@ std::vector<StageSums> contour_sums(const TriangleMesh& mesh, const Discretisati
   for (int l = 0; l <= length / 2; ++l) {
     const Complex zeta = std::polar(radius, 2 * kPi * l / length);
     const double multiplicity = l == 0 || 2 * l == length ? 1 : 2;  // conjugate points
-    const Eigen::ComplexEigenSolver<StageMatrixC> solver(d.scheme.delta(zeta));
-    const StageMatrixC left = solver.eigenvectors(), right = left.inverse();
+    const Eigensystem spectrum = eigensystem(d.scheme.delta(zeta));
+    const StageMatrixC left = spectrum.vectors, right = inverse(spectrum.vectors);
     for (int e = 0; e < stages; ++e) {
-      const LaplaceMatrices m = laplace_matrices(mesh, d.material, solver.eigenvalues()[e] / d.dt,
-                                                 d.quadrature_tolerance);
+      const LaplaceMatrices m =
+          laplace_matrices(mesh, d.material, spectrum.values[e] / d.dt, d.quadrature_tolerance);
       for (StageSums& sums : out)
         for (int i = 0; i < stages * stages; ++i) {
           const Complex factor = multiplicity / length * std::pow(zeta, -sums.lag) *

@@ -45,18 +45,18 @@ void run(RigidBodies& world, int steps, bool star_shaped = true) {
   CHECK(held >= static_cast<std::size_t>(steps));
 }
 
-const TriangleMesh kCube = box({0.1, 0.1, 0.1}, {1, 1, 1});
+const TriangleMesh kTumbling = box({0.1, 0.1, 0.1}, {1, 1, 1});
 
 }  // namespace
 
 TEST_CASE("tumbling cubes end every step without penetration") {
-  RigidBodies world = thrown({kCube}, 1, 7);
+  RigidBodies world = thrown({kTumbling}, 1, 7);
   world.planes.push_back({Vec3::Zero(), Vec3::UnitZ()});
   run(world, 300);
 }
 
 TEST_CASE("tumbling bodies of many shapes in a bowl end every step without penetration") {
-  RigidBodies world = thrown({kCube, box({0.1, 0.1, 0.1}, {3, 3, 3}), icosphere(2, 0.05),
+  RigidBodies world = thrown({kTumbling, box({0.1, 0.1, 0.1}, {3, 3, 3}), icosphere(2, 0.05),
                               box({0.14, 0.05, 0.02}, {2, 1, 1})},
                              1, 3);
   TriangleMesh dish = bowl(0.4, 0.02, 40);

@@ -14,7 +14,7 @@ namespace {
 
 using FloatMatrix = Eigen::MatrixXf;
 
-struct Example : MatrixExample {
+struct HaarExample : MatrixExample {
   using MatrixExample::MatrixExample;
 
   std::size_t entries() const { return kMatrices * 9 * nodes.size() * nodes.size(); }
@@ -38,11 +38,11 @@ struct Example : MatrixExample {
 };
 
 /// 203 nodes: slabs of different sizes, no power of two.
-const Example& cube() {
-  static const Example example = [] {
+const HaarExample& cube() {
+  static const HaarExample example = [] {
     std::vector<Vec3> points = bumpy_cube(1, 6, 0.2).vertices;
     points.resize(203);
-    return Example(points);
+    return HaarExample(points);
   }();
   return example;
 }
@@ -60,7 +60,7 @@ std::size_t kept(const MatrixFamily& family) {
 
 /// Magnitudes of the coefficients of the whole matrices in double precision, by the definition of
 /// the wavelets: constant on the two halves of a range, of mean zero and norm one.
-std::vector<double> coefficients_by_definition(const Example& example) {
+std::vector<double> coefficients_by_definition(const HaarExample& example) {
   const auto n = static_cast<Eigen::Index>(example.nodes.size());
   Eigen::MatrixXd w = Eigen::MatrixXd::Zero(n, n);
   w.row(0).setConstant(1 / std::sqrt(static_cast<double>(n)));
@@ -195,7 +195,7 @@ TEST_CASE("Haar compression and products are bit-identical for any number of thr
 }
 
 TEST_CASE("tiny bodies and vanishing matrices are Haar compressed, too") {
-  const Example tetrahedron({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  const HaarExample tetrahedron({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   CHECK(tetrahedron.error_of(*tetrahedron.compress(tolerance(1e-4))) <= 1e-4);
   CHECK(kept(*tetrahedron.compress(ratio(10))) == tetrahedron.entries() / 10);
   CHECK(kept(*tetrahedron.compress(ratio(1e6))) == 1);

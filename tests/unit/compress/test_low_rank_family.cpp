@@ -10,8 +10,8 @@ using namespace bem_test;
 
 namespace {
 
-struct Example : MatrixExample {
-  explicit Example(int subdivisions, double range = 1)
+struct LowRankExample : MatrixExample {
+  explicit LowRankExample(int subdivisions, double range = 1)
       : MatrixExample(icosphere(subdivisions, 1).vertices, range) {}
 
   std::unique_ptr<MatrixFamily> compress(double tolerance, double* error = nullptr,
@@ -36,8 +36,8 @@ struct Example : MatrixExample {
   }
 };
 
-const Example& sphere() {
-  static const Example example(3);
+const LowRankExample& sphere() {
+  static const LowRankExample example(3);
   return example;
 }
 
@@ -45,7 +45,7 @@ const Example& sphere() {
 
 TEST_CASE("large blocks in which nothing counts, a little, or much meet the tolerance") {
   for (const double range : {1.0, 8.0, 60.0}) {
-    const Example example(3, range);
+    const LowRankExample example(3, range);
     for (const double tolerance : {1e-2, 1e-4, 1e-5}) {
       CAPTURE(range, tolerance);
       double claimed = 0;
@@ -154,7 +154,7 @@ TEST_CASE("compression and products are bit-identical for any number of threads"
 }
 
 TEST_CASE("tiny bodies and vanishing matrices are compressed, too") {
-  const Example tetrahedron(0);
+  const LowRankExample tetrahedron(0);
   const auto family = tetrahedron.compress(1e-4);
   CHECK(tetrahedron.error_of(*family) < 3e-4);
   LowRankBuilder builder(make_partition(tetrahedron.nodes, {}), 1, 1e-6, MatrixForm::general);

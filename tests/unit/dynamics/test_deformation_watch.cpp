@@ -26,7 +26,7 @@ Mat3 turned(const Vec3& axis, double degrees) {
   return Eigen::AngleAxisd(degrees * kPi / 180, axis.normalized()).toRotationMatrix();
 }
 
-Mat3 stretch(double x, double y, double z) {
+Mat3 stretched(double x, double y, double z) {
   return Vec3(x, y, z).asDiagonal();
 }
 
@@ -49,14 +49,14 @@ struct Expected {
   }
 };
 
-const TriangleMesh ball = icosphere(2, 0.5);
+const TriangleMesh sphere = icosphere(2, 0.5);
 const TriangleMesh block = box(Vec3(1, 1, 1), {2, 2, 2});
 
 }  // namespace
 
 TEST_CASE("a body at rest has no deformation", "[dynamics]") {
   DeformationWatch watch;
-  watch.record(ball, mapped(ball, Mat3::Identity()), 1);
+  watch.record(sphere, mapped(sphere, Mat3::Identity()), 1);
   CHECK(std::abs(watch.least_volume().value - 1) < 1e-14);
   CHECK(std::abs(watch.most_volume().value - 1) < 1e-14);
   CHECK(std::abs(watch.least_area().value - 1) < 1e-13);
@@ -67,11 +67,11 @@ TEST_CASE("a body at rest has no deformation", "[dynamics]") {
 
 TEST_CASE("affine deformations have the ratios and rotations of their gradients", "[dynamics]") {
   const Mat3 shear = (Mat3() << 1.1, 0.3, -0.2, 0.1, 0.8, 0.15, -0.05, 0.2, 1.3).finished();
-  for (const Mat3& f : {stretch(1.2, 0.9, 1.1), shear, Mat3(turned({1, 2, 3}, 40) * shear),
-                        Mat3(turned({1, 0, 0}, 80) * stretch(0.5, 1, 2))}) {
+  for (const Mat3& f : {stretched(1.2, 0.9, 1.1), shear, Mat3(turned({1, 2, 3}, 40) * shear),
+                        Mat3(turned({1, 0, 0}, 80) * stretched(0.5, 1, 2))}) {
     DeformationWatch watch;
-    watch.record(ball, mapped(ball, f), 0.25);
-    const Expected expected(ball, f);
+    watch.record(sphere, mapped(sphere, f), 0.25);
+    const Expected expected(sphere, f);
     const double volume = f.determinant();
     CHECK(std::abs(watch.least_volume().value - std::min(1.0, volume)) < 1e-12);
     CHECK(std::abs(watch.most_volume().value - std::max(1.0, volume)) < 1e-12);
@@ -112,7 +112,7 @@ TEST_CASE("the extremes are those of the worst time and place", "[dynamics]") {
 TEST_CASE("triangles that go through zero area are inverted until they come back", "[dynamics]") {
   DeformationWatch watch;
   const auto lateral = [&](double s, double time) {
-    watch.record(block, mapped(block, stretch(3, s, s)), time);
+    watch.record(block, mapped(block, stretched(3, s, s)), time);
   };
   for (int step = 1; step <= 9; ++step) lateral(1 - 0.1 * step, step);
   CHECK(watch.inverted().value == 0);
@@ -131,14 +131,14 @@ TEST_CASE("triangles that go through zero area are inverted until they come back
 TEST_CASE("a mirrored body has a negative volume", "[dynamics]") {
   DeformationWatch watch;
   for (int step = 1; step <= 15; ++step)
-    watch.record(ball, mapped(ball, stretch(1 - 0.1 * step + 1e-3, 1, 1)), step);
+    watch.record(sphere, mapped(sphere, stretched(1 - 0.1 * step + 1e-3, 1, 1)), step);
   CHECK(std::abs(watch.least_volume().value + 0.499) < 1e-12);
   CHECK(watch.least_volume().time == 15);
 }
 
 TEST_CASE("a watch that is restored goes on in the same way", "[dynamics]") {
   const test::TemporaryFolder folder("deformation_watch");
-  const auto at = [&](int step) { return mapped(block, stretch(2, 1 - 0.3 * step, 1)); };
+  const auto at = [&](int step) { return mapped(block, stretched(2, 1 - 0.3 * step, 1)); };
   DeformationWatch whole, first, second;
   for (int step = 1; step <= 6; ++step) whole.record(block, at(step), step);
   for (int step = 1; step <= 3; ++step) first.record(block, at(step), step);

@@ -1,14 +1,14 @@
 #include "dynamics/frame_offset.hpp"
+#include "support/schemes.hpp"
 
 #include <string>
 
 #include <catch2/catch.hpp>
 
 using namespace bem;
+using bem_test::kSchemes;
 
 namespace {
-
-const std::string kSchemes[] = {"bdf1", "theta:0.75", "bdf2", "radau2", "radau3"};
 
 int stages_of(const std::string& scheme) {
   return Scheme::parse(scheme).stages();

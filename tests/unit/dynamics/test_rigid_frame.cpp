@@ -1,5 +1,6 @@
 #include "dynamics/rigid_frame.hpp"
 #include "dynamics/rotation.hpp"
+#include "support/schemes.hpp"
 
 #include <random>
 #include <string>
@@ -7,10 +8,10 @@
 #include <catch2/catch.hpp>
 
 using namespace bem;
+using bem_test::kSchemes;
 
 namespace {
 
-const std::string kSchemes[] = {"bdf1", "theta:0.75", "bdf2", "radau2", "radau3"};
 constexpr double kMass = 2.5;
 
 MassProperties mass_of_body() {

@@ -9,12 +9,12 @@ using namespace bem;
 namespace {
 
 /// A motion of 30 displacements: a deflection, and vibrations of different shapes.
-class Motion {
+class Oscillation {
  public:
   struct Mode {
     double amplitude, growth, frequency;
   };
-  explicit Motion(std::vector<Mode> modes) : modes_(std::move(modes)) {}
+  explicit Oscillation(std::vector<Mode> modes) : modes_(std::move(modes)) {}
 
   Eigen::VectorXd at(int step) const {
     Eigen::VectorXd out(30);
@@ -34,7 +34,7 @@ class Motion {
   std::vector<Mode> modes_;
 };
 
-std::optional<Vibration> watched(const Motion& motion, int steps) {
+std::optional<Vibration> watched(const Oscillation& motion, int steps) {
   VibrationWatch watch;
   for (int n = 0; n < steps; ++n) watch.add(motion.at(n));
   return watch.growing();
@@ -43,7 +43,8 @@ std::optional<Vibration> watched(const Motion& motion, int steps) {
 }  // namespace
 
 TEST_CASE("a vibration that grows is found among others", "[dynamics]") {
-  const Motion motion({{0.1, 1.001, 0.021}, {0.05, 0.99, 0.11}, {0.2, 1, 0.013}, {0.1, 0.8, 0.3}});
+  const Oscillation motion(
+      {{0.1, 1.001, 0.021}, {0.05, 0.99, 0.11}, {0.2, 1, 0.013}, {0.1, 0.8, 0.3}});
   for (const int steps : {110, 512, 1000}) {
     const auto found = watched(motion, steps);
     REQUIRE(found);
@@ -53,18 +54,18 @@ TEST_CASE("a vibration that grows is found among others", "[dynamics]") {
 }
 
 TEST_CASE("what does not grow is not reported", "[dynamics]") {
-  CHECK(!watched(Motion({{0.1, 1, 0.021}, {0.05, 0.99, 0.11}, {0.2, 1, 0.013}}), 700));
-  CHECK(!watched(Motion({{0.1, 0.999, 0.021}, {0.1, 0.9, 0.2}}), 300));
-  CHECK(!watched(Motion({{0, 1, 0.1}}), 300));                         // at rest
-  CHECK(!watched(Motion({{1e-8, 1.01, 0.021}}), 100));                 // rounding
-  CHECK(!watched(Motion({{0.1, 1.01, 0.015}}), 100));                  // not yet two periods
-  CHECK(!watched(Motion({{0.1, 1.001, 0.1}}), 40));                    // too short
-  CHECK(!watched(Motion({{1, 1, 0.04}, {1e-3, 1.002, 0.021}}), 300));  // a small part
+  CHECK(!watched(Oscillation({{0.1, 1, 0.021}, {0.05, 0.99, 0.11}, {0.2, 1, 0.013}}), 700));
+  CHECK(!watched(Oscillation({{0.1, 0.999, 0.021}, {0.1, 0.9, 0.2}}), 300));
+  CHECK(!watched(Oscillation({{0, 1, 0.1}}), 300));                         // at rest
+  CHECK(!watched(Oscillation({{1e-8, 1.01, 0.021}}), 100));                 // rounding
+  CHECK(!watched(Oscillation({{0.1, 1.01, 0.015}}), 100));                  // not yet two periods
+  CHECK(!watched(Oscillation({{0.1, 1.001, 0.1}}), 40));                    // too short
+  CHECK(!watched(Oscillation({{1, 1, 0.04}, {1e-3, 1.002, 0.021}}), 300));  // a small part
 }
 
 TEST_CASE("disturbances begin a new motion", "[dynamics]") {
   // pushed again and again: larger every time, but decaying in between
-  const Motion decaying({{0.1, 0.998, 0.021}, {0.05, 0.99, 0.11}});
+  const Oscillation decaying({{0.1, 0.998, 0.021}, {0.05, 0.99, 0.11}});
   VibrationWatch watch;
   for (int push = 0; push < 4; ++push) {
     for (int n = 0; n < 90; ++n) watch.add((1 + push) * decaying.at(n));
@@ -73,7 +74,7 @@ TEST_CASE("disturbances begin a new motion", "[dynamics]") {
   CHECK(!watch.growing());
 
   // nothing of what came before an interruption counts
-  const Motion quick({{0.1, 1.001, 0.1}});
+  const Oscillation quick({{0.1, 1.001, 0.1}});
   VibrationWatch brief;
   for (int n = 0; n < 200; ++n) {
     if (n % 50 == 0) brief.interrupt();
@@ -87,11 +88,12 @@ TEST_CASE("disturbances begin a new motion", "[dynamics]") {
   for (int n = 0; n < 120; ++n) surprised.add((n < 70 ? 1 : 2) * decaying.at(n));
   CHECK(!surprised.growing());
   VibrationWatch driven;  // by a jolt in every period
-  for (int n = 0; n < 200; ++n) driven.add(Motion({{0.1 * std::pow(1.3, n / 25), 1, 0.04}}).at(n));
+  for (int n = 0; n < 200; ++n)
+    driven.add(Oscillation({{0.1 * std::pow(1.3, n / 25), 1, 0.04}}).at(n));
   CHECK(!driven.growing());
 
   // what has been found before an interruption is remembered
-  const Motion growing({{0.1, 1.003, 0.021}});
+  const Oscillation growing({{0.1, 1.003, 0.021}});
   VibrationWatch both;
   for (int n = 0; n < 200; ++n) both.add(growing.at(n));
   both.interrupt();

@@ -2,6 +2,7 @@
 #include "friction/friction_solver.hpp"
 #include "friction/natural_map.hpp"
 #include "support/friction_problems.hpp"
+#include "support/rigid_scene.hpp"
 
 #include <limits>
 

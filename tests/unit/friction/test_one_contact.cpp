@@ -1,6 +1,7 @@
 #include "friction/natural_map.hpp"
 #include "friction/one_contact.hpp"
 #include "support/friction_problems.hpp"
+#include "support/uniform.hpp"
 
 #include <array>
 

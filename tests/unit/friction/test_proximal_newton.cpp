@@ -1,5 +1,6 @@
 #include "friction/proximal_newton.hpp"
 #include "support/friction_problems.hpp"
+#include "support/uniform.hpp"
 
 #include <catch2/catch.hpp>
 

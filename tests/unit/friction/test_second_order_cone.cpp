@@ -1,5 +1,6 @@
 #include "friction/second_order_cone.hpp"
 #include "support/friction_problems.hpp"
+#include "support/uniform.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -7,7 +7,7 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-std::string parse_error(const std::string& text) {
+std::string obj_error(const std::string& text) {
   return test::error_message(ErrorCode::invalid_input, [&] { parse_obj(text, "a.obj"); });
 }
 
@@ -20,7 +20,7 @@ std::vector<std::vector<int>> faces_of(const PolygonMesh& mesh) {
 
 using Faces = std::vector<std::vector<int>>;
 
-const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+const std::string kObjVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 
 }  // namespace
 
@@ -39,12 +39,12 @@ TEST_CASE("every way of writing a face corner is understood") {
        {"f 1 2 3", "f 1/4 2/5 3/6", "f 1//7 2//7 3//7", "f 1/4/7 2/5/7 3/6/7", "f -4 -3 -2",
         "f -4/-1 -3/-1 -2/-1", "f\t1  2 3 ", "f 1/ 2/ 3/", "f 1 2 3 # comment", "f 1 \\\n 2 3",
         "f 1 2 3\r"})
-    CHECK(faces_of(parse_obj(kVertices + face + "\n", "a.obj")) == Faces{{0, 1, 2}});
+    CHECK(faces_of(parse_obj(kObjVertices + face + "\n", "a.obj")) == Faces{{0, 1, 2}});
 }
 
 TEST_CASE("faces keep all their corners, other keywords are ignored") {
   const PolygonMesh mesh =
-      parse_obj("\xEF\xBB\xBFmtllib x\no thing\nvt 0 0\nvn 0 0 1\nusemtl m\n" + kVertices +
+      parse_obj("\xEF\xBB\xBFmtllib x\no thing\nvt 0 0\nvn 0 0 1\nusemtl m\n" + kObjVertices +
                     "v 1 1 0 0.5 0.5 0.5\ng a\ns 1\nl 1 2\nf 1 2 5 3 4",
                 "a.obj");
   CHECK(mesh.vertices.size() == 5);
@@ -53,11 +53,11 @@ TEST_CASE("faces keep all their corners, other keywords are ignored") {
 }
 
 TEST_CASE("a face may refer to vertices further down") {
-  CHECK(parse_obj("f 1 2 3\n" + kVertices, "a.obj").face_count() == 1);
+  CHECK(parse_obj("f 1 2 3\n" + kObjVertices, "a.obj").face_count() == 1);
 }
 
 TEST_CASE("lines may end with CR, LF or both") {
-  std::string text = kVertices + "f 1 2 3\nf 1 \\\n 2 4\n# f 1 2 3\nf 2 3 4";
+  std::string text = kObjVertices + "f 1 2 3\nf 1 \\\n 2 4\n# f 1 2 3\nf 2 3 4";
   for (const std::string end : {"\n", "\r", "\r\n"}) {
     std::string lines;
     for (char c : text) lines += c == '\n' ? end : std::string(1, c);
@@ -69,21 +69,21 @@ TEST_CASE("lines may end with CR, LF or both") {
 }
 
 TEST_CASE("numbers that cannot be parsed are shown with their line") {
-  CHECK_THAT(parse_error("\nv 0 zero 0"), StartsWith("a.obj:2:") && Contains("\"zero\""));
-  CHECK_THAT(parse_error("v 0 1.5x 0"), StartsWith("a.obj:1:") && Contains("\"1.5x\""));
-  CHECK_THAT(parse_error("v 0 +-1 0"), Contains("\"+-1\""));
-  CHECK_THAT(parse_error("v 0 1e999 0"), Contains("\"1e999\"") && Contains("range"));
-  CHECK_THAT(parse_error("v 0 0"), StartsWith("a.obj:1:") && Contains("three coordinates"));
-  CHECK_THAT(parse_error(kVertices + "f 1 b 3"), StartsWith("a.obj:5:") && Contains("\"b\""));
-  CHECK_THAT(parse_error(kVertices + "f 1 2.5 3"), Contains("\"2.5\""));
-  CHECK_THAT(parse_error(kVertices + "f 1 2/1/1/1 3"), Contains("\"2/1/1/1\""));
-  CHECK_THAT(parse_error(kVertices + "f 1 99999999999 3"), Contains("99999999999"));
-  CHECK_THAT(parse_error(kVertices + "f 1 \\\n2 3\nf 1 2"),
+  CHECK_THAT(obj_error("\nv 0 zero 0"), StartsWith("a.obj:2:") && Contains("\"zero\""));
+  CHECK_THAT(obj_error("v 0 1.5x 0"), StartsWith("a.obj:1:") && Contains("\"1.5x\""));
+  CHECK_THAT(obj_error("v 0 +-1 0"), Contains("\"+-1\""));
+  CHECK_THAT(obj_error("v 0 1e999 0"), Contains("\"1e999\"") && Contains("range"));
+  CHECK_THAT(obj_error("v 0 0"), StartsWith("a.obj:1:") && Contains("three coordinates"));
+  CHECK_THAT(obj_error(kObjVertices + "f 1 b 3"), StartsWith("a.obj:5:") && Contains("\"b\""));
+  CHECK_THAT(obj_error(kObjVertices + "f 1 2.5 3"), Contains("\"2.5\""));
+  CHECK_THAT(obj_error(kObjVertices + "f 1 2/1/1/1 3"), Contains("\"2/1/1/1\""));
+  CHECK_THAT(obj_error(kObjVertices + "f 1 99999999999 3"), Contains("99999999999"));
+  CHECK_THAT(obj_error(kObjVertices + "f 1 \\\n2 3\nf 1 2"),
              StartsWith("a.obj:7:") && Contains("at least three"));
 }
 
 TEST_CASE("non-finite coordinates are counted, the first is named") {
-  const std::string message = parse_error("v 0 0 0\nv nan 0 0\nv 0 0 -inf\nf 1 2 3");
+  const std::string message = obj_error("v 0 0 0\nv nan 0 0\nv 0 0 -inf\nf 1 2 3");
   CHECK_THAT(message, StartsWith("a.obj:2:") && Contains("non-finite") &&
                           Contains("vertex 1 at (nan, 0, 0)") && Contains("2 such vertices"));
 }
@@ -91,7 +91,7 @@ TEST_CASE("non-finite coordinates are counted, the first is named") {
 TEST_CASE("indices out of range are counted, the first is named") {
   for (const std::string corner : {"5", "0", "-5", "-2147483648"}) {
     const std::string message =
-        parse_error(kVertices + "f 1 2 3\nf 1 2 " + corner + "\nf 1 2 4\nf 2 3 " + corner);
+        obj_error(kObjVertices + "f 1 2 3\nf 1 2 " + corner + "\nf 1 2 4\nf 2 3 " + corner);
     CHECK_THAT(message, StartsWith("a.obj:6:") && Contains("index out of range") &&
                             Contains("face 1 ") && Contains("2 such faces"));
   }

@@ -26,7 +26,7 @@ TriangleMesh with_loose_lid(double gap) {
   return mesh;
 }
 
-std::string refusal(const TriangleMesh& mesh) {
+std::string open_refusal(const TriangleMesh& mesh) {
   return test::error_message(ErrorCode::invalid_input, [&] { make_surface(mesh, "a.obj"); });
 }
 
@@ -44,23 +44,24 @@ TEST_CASE("edges that lie on each other are found with the distance that joins t
 
 TEST_CASE("the message about loose edges names both, the distance, and what remains open") {
   TriangleMesh mesh = with_loose_lid(1e-9);
-  CHECK_THAT(refusal(mesh), StartsWith("a.obj: edges that lie on each other without sharing") &&
-                                Contains("32 such edges in all") && Contains("up to 1.01e-09 m") &&
-                                Contains("that closes the surface"));
+  CHECK_THAT(open_refusal(mesh),
+             StartsWith("a.obj: edges that lie on each other without sharing") &&
+                 Contains("32 such edges in all") && Contains("up to 1.01e-09 m") &&
+                 Contains("that closes the surface"));
   mesh.triangles.erase(mesh.triangles.begin());
-  CHECK_THAT(refusal(mesh), Contains("that leaves 3 open edges"));
+  CHECK_THAT(open_refusal(mesh), Contains("that leaves 3 open edges"));
 }
 
 TEST_CASE("a hole is called a hole, and a vertex on an edge is shown") {
   TriangleMesh mesh = kBox;
   mesh.triangles.pop_back();
-  CHECK_THAT(refusal(mesh), StartsWith("a.obj: open boundary: ") && Contains("3 such edges") &&
-                                Contains("close the holes"));
+  CHECK_THAT(open_refusal(mesh), StartsWith("a.obj: open boundary: ") && Contains("3 such edges") &&
+                                     Contains("close the holes"));
   // a tetrahedron whose face 1 2 3 is two triangles around the middle of edge 1-2
   mesh = test::unit_tetrahedron();
   mesh.vertices.push_back({0.5, 0.5, 0});
   mesh.triangles.back() = {4, 2, 3};
   mesh.triangles.push_back({1, 4, 3});
-  CHECK_THAT(refusal(mesh), Contains("the vertex at (0.5, 0.5, 0) lies on it") &&
-                                Contains("3 such edges") && Contains("split the edges"));
+  CHECK_THAT(open_refusal(mesh), Contains("the vertex at (0.5, 0.5, 0) lies on it") &&
+                                     Contains("3 such edges") && Contains("split the edges"));
 }

@@ -22,22 +22,22 @@ std::vector<std::string> orient(TriangleMesh& mesh) {
   return warnings;
 }
 
-const TriangleMesh kCube = box({1, 1, 1}, {2, 2, 2});
+const TriangleMesh kOutward = box({1, 1, 1}, {2, 2, 2});
 
 }  // namespace
 
 TEST_CASE("a body inside out is turned, with a warning") {
-  TriangleMesh mesh = combined({}, kCube, 1.0, Vec3::Zero(), true);
+  TriangleMesh mesh = combined({}, kOutward, 1.0, Vec3::Zero(), true);
   const auto warnings = orient(mesh);
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Contains("a.obj") && Contains("turned outward") &&
                               Contains("1 part of 1") && Contains("triangle 0 "));
-  CHECK(mesh.triangles == kCube.triangles);
+  CHECK(mesh.triangles == kOutward.triangles);
 }
 
 TEST_CASE("a cavity stays, and one with outward normals is turned into one and told so") {
   for (bool inward : {true, false}) {
-    TriangleMesh mesh = combined(kCube, kCube, 0.5, Vec3::Zero(), inward);
+    TriangleMesh mesh = combined(kOutward, kOutward, 0.5, Vec3::Zero(), inward);
     const auto warnings = orient(mesh);
     CHECK(warnings.size() == (inward ? 0 : 1));
     if (!inward)
@@ -52,15 +52,15 @@ TEST_CASE("a cavity stays, and one with outward normals is turned into one and t
 }
 
 TEST_CASE("a body inside out is turned with its cavities") {
-  TriangleMesh mesh = combined({}, kCube, 1.0, Vec3::Zero(), true);
-  mesh = combined(mesh, kCube, 0.5, Vec3::Zero(), false);
+  TriangleMesh mesh = combined({}, kOutward, 1.0, Vec3::Zero(), true);
+  mesh = combined(mesh, kOutward, 0.5, Vec3::Zero(), false);
   const auto warnings = orient(mesh);
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Contains("turned outward: 2 parts of 2"));
 }
 
 TEST_CASE("solids side by side keep their orientation") {
-  TriangleMesh mesh = combined(kCube, kCube, 1.0, {1.5, 0, 0}, false);
+  TriangleMesh mesh = combined(kOutward, kOutward, 1.0, {1.5, 0, 0}, false);
   const TriangleMesh before = mesh;
   CHECK(orient(mesh).empty());
   CHECK(mesh.triangles == before.triangles);
@@ -70,7 +70,7 @@ TEST_CASE("parts that touch are told apart: on top is a solid, under the surface
   // Lower or upper vertices of the smaller cube lie in the larger one's top face.
   for (bool cavity : {false, true}) {
     const Vec3 place(0.07, 0.03, cavity ? 0.35 : 0.65);
-    TriangleMesh mesh = combined(kCube, kCube, 0.3, place, cavity);
+    TriangleMesh mesh = combined(kOutward, kOutward, 0.3, place, cavity);
     const TriangleMesh before = mesh;
     CHECK(orient(mesh).empty());
     CHECK((mesh.triangles == before.triangles));
@@ -80,7 +80,7 @@ TEST_CASE("parts that touch are told apart: on top is a solid, under the surface
 
 TEST_CASE("a part that sticks out of another one is a solid of its own, however little") {
   for (double height : {0.35, 0.45, 0.5, 0.55}) {  // of a cube of 0.3 in one of 1
-    TriangleMesh mesh = combined(kCube, kCube, 0.3, {0.07, 0.03, height}, false);
+    TriangleMesh mesh = combined(kOutward, kOutward, 0.3, {0.07, 0.03, height}, false);
     CHECK(orient(mesh).size() == (height == 0.35 ? 1 : 0));
     CHECK(surface_components(mesh)[1].is_solid() == (height > 0.35));
   }

@@ -8,7 +8,7 @@ using namespace bem;
 
 namespace {
 
-const TriangleMesh kCube = box({1, 1, 1}, {2, 2, 2});
+const TriangleMesh kAround = box({1, 1, 1}, {2, 2, 2});
 
 double around(const TriangleMesh& mesh, const Vec3& p) {
   return winding_number(mesh.triangles, mesh.vertices, p);
@@ -42,21 +42,21 @@ TEST_CASE("a triangle covers half of the view on its face and nothing in its pla
 }
 
 TEST_CASE("the winding number is 1 inside and 0 outside") {
-  CHECK(around(kCube, {0.1, 0.2, -0.3}) == Approx(1.0).epsilon(1e-12));
-  CHECK(std::abs(around(kCube, {0.1, 0.2, 0.8})) < 1e-12);
-  CHECK(around(kCube, {0.1, 0.2, 0.5 - 1e-9}) == Approx(1.0).epsilon(1e-6));
-  CHECK(std::abs(around(kCube, {0.1, 0.2, 0.5 + 1e-9})) < 1e-6);
+  CHECK(around(kAround, {0.1, 0.2, -0.3}) == Approx(1.0).epsilon(1e-12));
+  CHECK(std::abs(around(kAround, {0.1, 0.2, 0.8})) < 1e-12);
+  CHECK(around(kAround, {0.1, 0.2, 0.5 - 1e-9}) == Approx(1.0).epsilon(1e-6));
+  CHECK(std::abs(around(kAround, {0.1, 0.2, 0.5 + 1e-9})) < 1e-6);
   CHECK(around(icosphere(2, 1), Vec3::Zero()) == Approx(1.0).epsilon(1e-12));
 }
 
 TEST_CASE("the winding number counts surfaces with their orientation") {
   const Vec3 p(0.01, 0.02, 0.03);
-  const TriangleMesh inward = test::combined({}, kCube, 1.0, Vec3::Zero(), true);
+  const TriangleMesh inward = test::combined({}, kAround, 1.0, Vec3::Zero(), true);
   CHECK(around(inward, p) == Approx(-1.0).epsilon(1e-12));
-  CHECK(around(test::combined(kCube, kCube, 0.5, Vec3::Zero(), false), p) ==
+  CHECK(around(test::combined(kAround, kAround, 0.5, Vec3::Zero(), false), p) ==
         Approx(2.0).epsilon(1e-12));
-  CHECK(std::abs(around(test::combined(kCube, kCube, 0.5, Vec3::Zero(), true), p)) < 1e-12);
-  TriangleMesh open = kCube;  // without one of its six faces, seen from the centre
+  CHECK(std::abs(around(test::combined(kAround, kAround, 0.5, Vec3::Zero(), true), p)) < 1e-12);
+  TriangleMesh open = kAround;  // without one of its six faces, seen from the centre
   open.triangles.erase(
       std::remove_if(open.triangles.begin(), open.triangles.end(),
                      [&](const Triangle& t) { return triangle_centroid(open, t)[2] > 0.499; }),

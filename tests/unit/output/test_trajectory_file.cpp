@@ -12,12 +12,12 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr std::size_t kFrames = 3, kVertices = 4;
+constexpr std::size_t kStoredFrames = 3, kVertices = 4;
 
 struct Contents {
   std::vector<double> times{0, 0.1, 0.2};
-  std::vector<double> positions = std::vector<double>(kFrames * kVertices * 3, 0.5);
-  std::size_t frames = kFrames;
+  std::vector<double> positions = std::vector<double>(kStoredFrames * kVertices * 3, 0.5);
+  std::size_t frames = kStoredFrames;
   std::vector<std::int32_t> faces{0, 1, 2, 0, 2, 3};
 };
 

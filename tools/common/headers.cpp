@@ -1,0 +1,1 @@
+// Nothing: a target that owns the precompiled headers of all programs.
