@@ -92,6 +92,14 @@ def titles(text):
     return {t.rstrip(".:") for t in headings(text) + leads}
 
 
+def titles_of_documents(folder):
+    """By file name, of all documents below the folder; those of one name share an entry."""
+    found = {}
+    for path in files_below(folder, {".md"}):
+        found.setdefault(path.name, set()).update(titles(path.read_text(encoding="utf-8")))
+    return found
+
+
 def check_links(path, text, findings):
     visible = without_code_blocks(text)
     spans = without_code_spans(visible)
@@ -181,7 +189,7 @@ def check_titles(path, text, visible, documents, findings):
         name, title = match.groups()
         title = re.sub(r"\s+(?:///?<?|#)?\s*", " ", title)
         if name in documents and title not in documents[name]:
-            findings.add(path, text, match.start(), f"docs/{name} has no part with the title \"{title}\"",
+            findings.add(path, text, match.start(), f"{name} has no part with the title \"{title}\"",
                          "name one of its headings")
 
 
@@ -198,7 +206,7 @@ def main(arguments) -> int:
         return 0 if arguments[0] in ("-h", "--help") else 2
     root = pathlib.Path(arguments[0] if arguments else pathlib.Path(__file__).parent.parent).resolve()
     findings = Findings(root)
-    documents = {p.name: titles(p.read_text(encoding="utf-8")) for p in sorted((root / "docs").glob("*.md"))}
+    documents = titles_of_documents(root / "docs")
     equations = root / EQUATIONS
     known = set(re.findall(r"\bM\d+\b", equations.read_text(encoding="utf-8"))) if equations.exists() else set()
     programs = test_programs(root)

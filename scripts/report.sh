@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The long study: everything that docs/accuracy.md and docs/performance.md quote, on this machine.
+# The long study: everything that docs/accuracy and docs/performance.md quote, on this machine.
 # Takes about an hour and a half; leaves text and JSON in out/report, and the tables in out/report/summary.md;
-# those of the parts study and calculix in out/study (scripts/study.py, docs/accuracy.md).
+# those of the parts study and calculix in out/study (scripts/study.py, docs/accuracy/speed-against-error.md).
 # Figures are worth something only while the machine does nothing else.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -9,7 +9,8 @@ from . import tables
 from .settings import Setting, in_both
 from .tables import SCENES
 
-DOCUMENTS, IMAGES = (ROOT / "docs/accuracy.md", ROOT / "docs/choosing.md"), ROOT / "docs/images/study"
+DOCUMENTS = (*sorted((ROOT / "docs/accuracy").glob("*.md")), ROOT / "docs/choosing.md")
+IMAGES = ROOT / "docs/images/study"
 PHASES_OF = (("rod-fixed", Setting(2, 40)), ("rod-fixed", Setting(4, 80)), ("rod-fixed", Setting(7, 20)),
              ("sphere", Setting(6, 18)), ("sphere", Setting(10, 6)), ("beam", Setting(6, 80)), ("slide", Setting(2, 128)))
 

@@ -9,7 +9,7 @@ GALERKIN, COLLOCATION = DISCRETISATIONS = ("galerkin", "collocation")  # the def
 @dataclasses.dataclass(frozen=True)
 class Setting:
     """`mesh` is the problem's measure of fineness, `steps` the number of time steps per period of the problem
-    (docs/accuracy.md), `history` 0 the default, `extra` more options of bemprecomp."""
+    (docs/accuracy/speed-against-error.md), `history` 0 the default, `extra` more options of bemprecomp."""
     mesh: int
     steps: int
     scheme: str = BASE

@@ -11,10 +11,12 @@ GOOD = {
     "README.md": "# Bem\n\n[The method](docs/method.md#two-words--more) is in `libbem/a/good.cpp`, see\n[below](#bem).\n\n"
                  "    [code](nowhere.md)\n\n```\n[more code](nowhere.md)\n```\n\n`[a span](nowhere.md)` and\n[two\nlines](docs/method.md)\n",
     "docs/method.md": "# Method\n\n## Two words: & more\n\n*A lead.* Text about a/good.cpp.\n`unit_a` tests it.\n",
+    "docs/more/details.md": "# Details\n\n## A case\n\n[The method](../method.md#two-words--more)\n",
     "tests/CMakeLists.txt": "bem_add_test(unit_a SOURCES test_a.cpp)\n",
     "docs/equations.md": "| (M1) | [`a/good.cpp`](../libbem/a/good.cpp) `Good::run`, `other` and \"a test of \\|z\\|\" |\n",
     "docs/glossary.md": "# Glossary\n\n| word | code | not called |\n|---|---|---|\n| thing | `Good::run`, `other` | `gone` |\n",
     "libbem/a/good.cpp": "// (M1), docs/method.md, \"Two\n// words: & more\"; docs/method.md, \"A lead\"; a/good.cpp\n"
+                         "// docs/more/details.md, \"A case\"\n"
                          "struct Good { void run(); };  // a test of |z|\nvoid other();\n",
 }
 
@@ -48,6 +50,8 @@ class CheckDocs(unittest.TestCase):
                 ({"README": ("a/good.cpp", "a/bad.cpp")}, "README.md:3", "no file libbem/a/bad.cpp"),
                 ({"method": ("Two words", "Three words")}, "README.md:3", "anchor #two-words--more"),
                 ({"method": ("A lead", "The lead")}, "libbem/a/good.cpp:2", "no part with the title \"A lead\""),
+                ({"details": ("A case", "No case")}, "libbem/a/good.cpp:3", "details.md has no part with the title \"A case\""),
+                ({"details": ("../method.md", "method.md")}, "docs/more/details.md:5", "method.md, which does not exist"),
                 ({"method": ("unit_a", "unit_b")}, "docs/method.md:6", "no test program unit_b"),
                 ({"method": ("a/good", "b/good")}, "docs/method.md:5", "no file b/good.cpp"),
                 ({"equations": ("Good::run", "Good::walk")}, "docs/equations.md:1", "no 'Good::walk'"),

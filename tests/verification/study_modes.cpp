@@ -1,5 +1,5 @@
-// Tables of docs/accuracy.md: frequencies of spheres and beams over meshes, materials, schemes and
-// time steps.
+// Tables of docs/accuracy/vibrations.md: frequencies of spheres and beams over meshes, materials,
+// schemes and time steps.
 #include "verification/clamped_beam.hpp"
 #include "verification/sphere_modes.hpp"
 

@@ -23,7 +23,7 @@ double check_modes(int across, const BeamMaterial& b, const char* kind, double h
 }  // namespace
 
 TEST_CASE("beam: free vibrations") {
-  // two cells over the width; limits: 1.1 times the errors of docs/accuracy.md
+  // two cells over the width; limits: 1.1 times the errors of docs/accuracy/vibrations.md
   for (const BeamMaterial& b : {kSoftBeam, kStiffBeam}) {
     check_modes(2, b, "bending", b.bending1, 0.14);
     check_modes(2, b, "torsion", b.torsion1, 0.09);
@@ -46,6 +46,6 @@ TEST_CASE("clamped beam: gravity that sets in suddenly") {
     CHECK(r.hertz == Approx(b.bending1).epsilon(0.04));
     CHECK(r.peak == Approx(2 * rest).epsilon(0.06));
     CHECK(r.centre == Approx(rest).epsilon(0.015));
-    CHECK(r.growth < 1.18);  // the mesh feeds the bending, docs/accuracy.md
+    CHECK(r.growth < 1.18);  // the mesh feeds the bending, docs/accuracy/vibrations.md
   }
 }

@@ -1,5 +1,6 @@
 // Order of convergence in time with handles and joints, against that of a free body; space is
-// fixed. Printed figures are quoted in docs/accuracy.md, "Contact, friction and joints".
+// fixed. Printed figures are quoted in docs/accuracy/contact.md, "Order in time with
+// handles and joints".
 #include "support/contact_scenes.hpp"
 
 #include <cstdio>

@@ -15,7 +15,7 @@ using namespace bem_test;
 
 namespace {
 
-/// Penetration allowed at every step, as a part of the smallest body [docs/accuracy.md].
+/// Penetration allowed at every step, as a part of the smallest body [docs/accuracy/contact.md].
 constexpr double kAllowed = 0.005;
 
 /// What the archives and obstacles of the scenes are here, by file name.

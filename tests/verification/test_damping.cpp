@@ -1,6 +1,6 @@
 // Material damping: how fast vibrations decay, against theory. A mode of the elastic body with the
 // frequency w has, with moduli times 1 + s T, the decay rate w^2 T/2. Printed figures are quoted in
-// docs/accuracy.md, "Material damping".
+// docs/accuracy/vibrations.md, "Material damping".
 #include "model/growth.hpp"
 #include "verification/clamped_beam.hpp"
 

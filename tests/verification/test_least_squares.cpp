@@ -1,5 +1,5 @@
 // The paper's correction beside the projection: momentum and deformation after a push. Printed
-// figures are quoted in docs/accuracy.md, "The paper's correction".
+// figures are quoted in docs/accuracy/momentum.md, "The paper's correction".
 #include "model/rigid_projection.hpp"
 #include "support/simulate.hpp"
 

@@ -1,5 +1,5 @@
 // Long runs: bounded motion, constant momenta, and growth at the rate that the precomputation
-// reports. Printed figures are quoted in docs/accuracy.md, "Long runs".
+// reports. Printed figures are quoted in docs/accuracy/stability.md, "Long runs".
 #include "support/simulate.hpp"
 
 #include <cstdio>

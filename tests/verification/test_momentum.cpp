@@ -1,5 +1,5 @@
 // Momentum: it equals the impulse, whatever the bodies do elastically and to each other. Printed
-// figures are quoted in docs/accuracy.md, "Long runs".
+// figures are quoted in docs/accuracy/momentum.md, "Momentum".
 #include "dynamics/rotation.hpp"
 #include "support/contact_scenes.hpp"
 

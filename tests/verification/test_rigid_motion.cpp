@@ -1,5 +1,5 @@
 // Rigid limits: free fall, spin about a principal axis, torque-free tumbling. Printed figures are
-// quoted in docs/accuracy.md, "Rigid motion".
+// quoted in docs/accuracy/momentum.md, "Rigid motion".
 #include "dynamics/rotation.hpp"
 #include "support/simulate.hpp"
 

@@ -1,4 +1,5 @@
-// Sphere under sudden uniform pressure: modal series (docs/accuracy.md), compared at the surface.
+// Sphere under sudden uniform pressure: modal series (docs/accuracy/exact-solutions.md), compared
+// at the surface.
 #include "support/simulate.hpp"
 
 #include <cstdio>

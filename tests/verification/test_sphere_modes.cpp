@@ -12,7 +12,7 @@ using namespace bem;
 using namespace bem_test;
 
 TEST_CASE("sphere: Lamb's modes with their multiplicities") {
-  // 1.15 times the largest errors of docs/accuracy.md with 42 vertices
+  // 1.15 times the largest errors of docs/accuracy/vibrations.md with 42 vertices
   std::map<std::string, double> limits = {{"T2", 0.031}, {"S2", 0.016}, {"S1", 0.0125},
                                           {"T3", 0.032}, {"S3", 0.034}, {"S0", 0.0006}};
   const TriangleMesh mesh = unit_volume_icosphere(1);

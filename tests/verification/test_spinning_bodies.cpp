@@ -1,6 +1,6 @@
 // Bodies that rotate: stretched by the centrifugal force, deformed by the gyroscopic one when they
-// tumble, and turned as Euler's equations say. Printed figures are quoted in docs/accuracy.md,
-// "Rotating bodies".
+// tumble, and turned as Euler's equations say. Printed figures are quoted in
+// docs/accuracy/momentum.md, "Rotating bodies".
 #include "algebra/decompositions.hpp"
 #include "base/symmetric_matrix.hpp"
 #include "dynamics/rotation.hpp"

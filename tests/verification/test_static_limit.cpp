@@ -1,5 +1,5 @@
 // Static limit: what is left of a loaded body when its vibration has decayed. Printed figures are
-// quoted in docs/accuracy.md, "Static limit".
+// quoted in docs/accuracy/statics.md, "Static limit".
 #include "model/growth.hpp"
 #include "support/lag_matrices.hpp"
 #include "support/laplace_assembly.hpp"
