@@ -10,9 +10,9 @@ What is checked, in every Markdown file below ROOT:
       [`kernels/contour.cpp`](../libbem/kernels/contour.cpp) `ContourQuadrature::weights`, `add_closure`
 * in docs/glossary.md the `names` in the columns "code" of its tables occur in the sources of libbem;
 * a path such as kernels/contour.hpp exists below ROOT, libbem, tests or scripts (not in CHANGELOG.md, which tells of the past).
-* a test program such as unit_kernels is one that a CMakeLists.txt below tests adds.
-And in comments of the code: such paths, titles as in  docs/method.md, "Double nodes"  and equation numbers as in  (M25),
-which have to be in docs/equations.md.
+* a test program such as unit_kernels is one that a CMakeLists.txt below tests adds;
+* an equation number such as (M25) is in docs/equations.md.
+And in comments of the code: such paths and numbers, and titles as in  docs/method.md, "Double nodes".
 
 Every finding is printed as FILE:LINE: what is wrong; what cures it. Exit codes: 0 nothing found, 1 something found, 2 usage."""
 import os
@@ -218,6 +218,7 @@ def main(arguments) -> int:
         visible = without_code_blocks(text)
         check_links(path, text, findings)
         check_titles(path, text, visible, documents, findings)
+        check_equations(path, text, visible, known, findings)
         if path.name != "CHANGELOG.md":
             check_paths(path, text, LINK.sub(lambda m: " " * len(m.group()), visible), findings)
             check_programs(path, text, visible, programs, findings)

@@ -10,7 +10,7 @@ SCRIPT = ROOT / "scripts" / "check_docs.py"
 GOOD = {
     "README.md": "# Bem\n\n[The method](docs/method.md#two-words--more) is in `libbem/a/good.cpp`, see\n[below](#bem).\n\n"
                  "    [code](nowhere.md)\n\n```\n[more code](nowhere.md)\n```\n\n`[a span](nowhere.md)` and\n[two\nlines](docs/method.md)\n",
-    "docs/method.md": "# Method\n\n## Two words: & more\n\n*A lead.* Text about a/good.cpp.\n`unit_a` tests it.\n",
+    "docs/method.md": "# Method\n\n## Two words: & more\n\n*A lead.* Text (M1) about a/good.cpp.\n`unit_a` tests it.\n",
     "docs/more/details.md": "# Details\n\n## A case\n\n[The method](../method.md#two-words--more)\n",
     "tests/CMakeLists.txt": "bem_add_test(unit_a SOURCES test_a.cpp)\n",
     "docs/equations.md": "| (M1) | [`a/good.cpp`](../libbem/a/good.cpp) `Good::run`, `other` and \"a test of \\|z\\|\" |\n",
@@ -59,6 +59,7 @@ class CheckDocs(unittest.TestCase):
                 ({"equations": ("a test", "no test")}, "docs/equations.md:1", "no 'no test of |z|'"),
                 ({"glossary": ("`other`", "`another`")}, "docs/glossary.md:5", "libbem has no 'another'"),
                 ({"equations": ("M1", "M2")}, "libbem/a/good.cpp:1", "equation (M1) is not in"),
+                ({"method": ("M1", "M2")}, "docs/method.md:5", "equation (M2) is not in"),
                 ({"good": ("run()", "ran()")}, "docs/equations.md:1", "no 'Good::run'"),
                 ({"good": ("; a/good.cpp", "; a/gone.hpp")}, "libbem/a/good.cpp:2", "no file a/gone.hpp")):
             with self.subTest(changes=changes):
