@@ -281,7 +281,7 @@ def table_slide(found):
     rows = [[r["scheme"], r["nodes"], r["steps"], number(r["way"]), number(r["time"]), number(per_second(r))]
             for r in sorted(records.values(), key=lambda r: (r["scheme"], r["mesh"], r["steps"]))
             if r["scheme"] in (BASE, "rigid", "bdf1")]
-    return table(["scheme", "nodes", "steps until rest", "error of the way", "error of the time", "simulation [CPU s per s]"], rows)
+    return table(["scheme", "nodes", "steps until rest", "error of the distance", "error of the time", "simulation [CPU s per s]"], rows)
 
 
 def table_impact(found):
