@@ -2,6 +2,10 @@
 add_library(bem_options INTERFACE)
 target_compile_options(bem_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                                              -Wno-unknown-pragmas)
+if(CMAKE_UNITY_BUILD)
+  # to the compiler, sources that are compiled together are headers
+  target_compile_options(bem_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 if(BEM_WARNINGS_AS_ERRORS)
   target_compile_options(bem_options INTERFACE -Werror)
 endif()

@@ -24,7 +24,7 @@ PLAN = {
     "collision": "base mesh",
     "dynamics": "base algebra mesh scene kernels assembly compress model",
     "constraints": "base algebra mesh scene collision friction dynamics",
-    "simulation": "base mesh scene model dynamics constraints",
+    "simulation": "base mesh scene model archive dynamics constraints",
 }
 ROOT = pathlib.Path(__file__).resolve().parent.parent / "libbem"
 

@@ -7,13 +7,14 @@
 namespace bem {
 namespace {
 
-constexpr int kDeepestCell =
-    12;  // a vertex closer than 1e-4 edges is integrated with the finest rule
+// a vertex closer than 1e-4 edges is integrated with the finest rule
+constexpr int kDeepestCell = 12;
 
 }  // namespace
 
 void PointBatch::pad() {
-  for (int q = size; q < padded_size(); ++q)
+  const int end = std::min(padded_size(), kCapacity);
+  for (int q = size; q < end; ++q)
     for (int i = 0; i < 3; ++i) {
       r[i][q] = r[i][0];
       shape_weight[i][q] = 0;

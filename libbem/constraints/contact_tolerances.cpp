@@ -4,8 +4,8 @@
 
 namespace bem {
 
-ContactTolerances::ContactTolerances(double tolerance, double smallest_body)
-    : tolerance(tolerance), sheet_offset(std::max(5e-5 * smallest_body, 2 * tolerance)) {
+ContactTolerances::ContactTolerances(double given, double smallest_body)
+    : tolerance(given), sheet_offset(std::max(5e-5 * smallest_body, 2 * tolerance)) {
   detection.tolerance = tolerance;
   detection.margin = std::max(1e-3 * smallest_body, 2 * tolerance);
   detection.recovery_depth = std::max(5e-3 * smallest_body, 2 * tolerance);

@@ -20,6 +20,12 @@ struct PrecomputeOptions {
   bool measure_growth = true;
 };
 
+/// The options that bemprecomp takes if none are given: the Galerkin method, radau2, codec
+/// "lowrank", a history that is as long as waves need, no window and no measurement of growth. `dt`
+/// [s] > 0.
+PrecomputeOptions default_options(const BodyGeometry& geometry, const Material& material,
+                                  double dt);
+
 /// The codec with the tolerance that a body needs. Errors of a codec are relative to a whole
 /// matrix; where a body of the Galerkin method is thin, or its triangles are small beside others,
 /// its inertia is a small part of that, and motions would grow if it were lost: there the tolerance

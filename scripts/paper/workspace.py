@@ -56,7 +56,8 @@ class Workspace:
             command = ["bemrecode", self.folder / f"{source}.bem", "-o", path, "--force", *options]
         else:
             mesh, material = self.mesh(name), SOURCES / f"material-{body.material}.json"
-            options = ["--scheme", self.scheme, "--discretisation", self.discretisation, "--dt", body.dt, *self._scale(body), *body.options]
+            options = ["--scheme", self._scheme(body), "--discretisation", self.discretisation, "--dt", body.dt,
+                       *self._scale(body), *body.options]
             inputs = [mesh.read_text(), material.read_text(), *options]
             command = ["bemprecomp", mesh, material, "-o", path, "--force", "--stats",
                        self.folder / f"{name}.precompute.json", *options]
@@ -66,6 +67,11 @@ class Workspace:
             self.run(*command)
             note.write_text(made)
         self.run("bemprecomp", "--info", path, "--json", output=self.folder / f"{name}.info.json")
+
+    def _scheme(self, body):
+        """Static models know schemes of one stage alone."""
+        one_stage = not self.scheme.startswith("radau")
+        return self.scheme if one_stage or "static" not in body.options else "bdf1"
 
     def _scale(self, body):
         return [] if self.small or body.scale == 1 else ["--mesh-scale", body.scale]

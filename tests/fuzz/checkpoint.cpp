@@ -10,8 +10,8 @@ namespace bem_fuzz {
 namespace {
 
 /// The first byte of an input chooses the model: one with stored inverses or one without.
-bem_test::MemorySource& source(bool iterative) {
-  static bem_test::MemorySource sources[2];
+bem::MemorySource& source(bool iterative) {
+  static bem::MemorySource sources[2];
   static const bool made = [] {
     sources[0].add("b", small_model("radau2", "lowrank"));
     sources[1].add("b", small_model("bdf2", "none", bem::InverseKind::iterative));

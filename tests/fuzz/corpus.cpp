@@ -76,7 +76,7 @@ void archives(const fs::path& folder) {
 }
 
 void checkpoint(const fs::path& folder, bool iterative) {
-  bem_test::MemorySource source;
+  bem::MemorySource source;
   source.add("b", iterative ? small_model("bdf2", "none", InverseKind::iterative)
                             : small_model("radau2", "lowrank"));
   Simulation simulation(small_scene(), source);

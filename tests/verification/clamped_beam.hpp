@@ -30,7 +30,7 @@ inline std::vector<double> tip_deflections(const ClampedBeam& beam_spec, int acr
   o.discretisation.history_length += bem::damped_history_length(lam, damping.time / dt);
   o.window = window;
   o.measure_growth = window == 0;
-  MemorySource source;
+  bem::MemorySource source;
   source.add("b", bem::precompute(g, o));
   bem::Scene scene = one_body_scene(o.discretisation.dt);
   scene.gravity = bem::Vec3(0, 0, -beam_spec.gravity);

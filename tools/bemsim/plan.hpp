@@ -1,6 +1,6 @@
 #pragma once
 
-#include "archive_source.hpp"
+#include "simulation/archive_source.hpp"
 #include "frame_schedule.hpp"
 #include "options.hpp"
 #include "twist.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "archive_source.hpp"
+#include "simulation/archive_source.hpp"
 #include "common/cli.hpp"
 #include "options.hpp"
 #include "plan.hpp"

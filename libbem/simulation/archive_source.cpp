@@ -1,4 +1,4 @@
-#include "archive_source.hpp"
+#include "simulation/archive_source.hpp"
 
 #include "base/error.hpp"
 #include "mesh/mesh_io.hpp"

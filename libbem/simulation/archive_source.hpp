@@ -1,7 +1,7 @@
 #pragma once
 
 #include "archive/archive_reader.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/scene_loader.hpp"
 
 #include <map>
 #include <memory>
@@ -9,12 +9,13 @@
 
 namespace bem {
 
-/// The archives of a scene. Each is opened, and its digest checked, once. Everything here throws
-/// ErrorCode::archive with a message that names the place in the scene and the archive.
+/// The archives and obstacle meshes of a scene. Each archive is opened, and its digest checked,
+/// once. Every function throws ErrorCode::archive with a message that names the place in the scene
+/// and the archive.
 class ArchiveSource : public ModelSource {
  public:
   /// `progress` may throw to stop the loading.
-  explicit ArchiveSource(Progress progress) : progress_(std::move(progress)) {}
+  explicit ArchiveSource(Progress progress = nullptr) : progress_(std::move(progress)) {}
 
   /// The archive without its matrices.
   const Archive& open(const FilePath& path);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "simulation/scene_loader.hpp"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace bem {
+
+/// Models and obstacles that live in memory, by the name that a scene has as path of the archive or
+/// mesh (FilePath::resolved). A name that is not there throws std::out_of_range.
+class MemorySource : public ModelSource {
+ public:
+  void add(const std::string& name, BodyModel model);
+  void add_obstacle(const std::string& name, TriangleMesh mesh);
+
+  std::shared_ptr<const BodyModel> model(const FilePath& archive) override;
+  TractionData tractions(const FilePath& archive, const std::vector<int>& nodes) override;
+  /// Throws ErrorCode::invalid_input if the mesh is no surface.
+  const ObstacleSurface& obstacle(const MeshObstacle& obstacle) override;
+
+ private:
+  std::map<std::string, std::shared_ptr<const BodyModel>> models_;
+  std::map<std::string, TriangleMesh> meshes_;
+  std::map<std::pair<std::string, std::array<double, 3>>, ObstacleSurface> obstacles_;
+};
+
+}  // namespace bem
