@@ -2,6 +2,7 @@
 // tip's path and the period of the vibration that is left, beside that of a slender beam.
 //
 //   pluck_beam           prints CSV: time [s], deflection of the tip [m]
+#include "dynamics/body_output.hpp"
 #include "mesh/shapes.hpp"
 #include "model/precompute.hpp"
 #include "simulation/memory_source.hpp"
@@ -52,7 +53,8 @@ int main() {
   while (simulation.time() < 3) {
     simulation.step();
     const double t = simulation.time();
-    const double now = simulation.bodies()[0].positions()[tip].z() - mesh.vertices[tip].z();
+    const double now =
+        bem::BodyOutput(simulation.bodies()[0]).positions()[tip].z() - mesh.vertices[tip].z();
     std::printf("%.3f,%.6g\n", t, now);
     if (t > 0.3 && before < 0 && now >= 0) {
       last = t - dt * now / (now - before);

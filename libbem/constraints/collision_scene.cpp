@@ -3,6 +3,7 @@
 #include "collision/moving_surface.hpp"
 #include "collision/penetration.hpp"
 #include "collision/surface_overlap.hpp"
+#include "dynamics/body_output.hpp"
 #include "mesh/bounding_tree.hpp"
 #include "mesh/closest_points.hpp"
 #include "scene/motion.hpp"
@@ -88,7 +89,8 @@ CollisionDetector CollisionScene::make_detector(
 }
 
 void CollisionScene::begin_step(double t, double dt, const std::vector<ContactKey>& broken) {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) start_[b] = bodies_[b].node_positions();
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    start_[b] = BodyOutput(bodies_[b]).node_positions();
   for (std::size_t o = 0; o < obstacles_.size(); ++o) {
     const auto& shape = std::get<MeshObstacle>(obstacles_[o].spec->shape);
     const std::size_t s = bodies_.size() + o;

@@ -1,6 +1,7 @@
 #include "constraints/constraint_solver.hpp"
 
 #include "base/interruption.hpp"
+#include "dynamics/body_compliance.hpp"
 #include "friction/natural_map.hpp"
 
 #include <algorithm>
@@ -99,7 +100,7 @@ double ConstraintSolver::largest_turn(const std::vector<Vec3>& forces) const {
   double largest = 0;
   for (std::size_t b = 0; b < bodies_->size(); ++b) {
     if (placed_.ports[b].empty() || mechanisms_[mechanism_of_[b]].unknowns() > 0) continue;
-    const Body::FrameCompliance frame = (*bodies_)[b].contact_frame_compliance();
+    const BodyCompliance::Frame frame = BodyCompliance((*bodies_)[b]).contact_frame();
     Vec3 moment = Vec3::Zero();
     for (const Port& p : placed_.ports[b])
       moment += (placed_.pairs[p.constraint].contact.point - frame.centre)

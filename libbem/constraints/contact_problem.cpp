@@ -1,5 +1,6 @@
 #include "constraints/contact_problem.hpp"
 
+#include "dynamics/body_compliance.hpp"
 #include "friction/natural_map.hpp"
 
 #include <algorithm>
@@ -13,7 +14,8 @@ namespace {
 void add_frame_compliance(const Body& body, const std::vector<Port>& ports,
                           const std::vector<Port>& local, const PlacedContacts& contacts,
                           Eigen::MatrixXd& out) {
-  const Body::FrameCompliance frame = body.contact_frame_compliance();
+  const BodyCompliance compliance(body);
+  const BodyCompliance::Frame frame = compliance.contact_frame();
   const std::size_t count = ports.size();
   std::vector<Mat3> shifts(count), turns(count), levers(count);
   for (std::size_t p = 0; p < count; ++p) {
@@ -21,8 +23,8 @@ void add_frame_compliance(const Body& body, const std::vector<Port>& ports,
     const Vec3 arm = contacts.pairs[ports[p].constraint].contact.point - frame.centre;
     Vec3 lever = Vec3::Zero();
     for (int i = 0; i < ports[p].count; ++i)
-      lever +=
-          ports[p].weights[i] * body.contact_lever(static_cast<std::size_t>(ports[p].slots[i]));
+      lever += ports[p].weights[i] *
+               compliance.contact_lever(static_cast<std::size_t>(ports[p].slots[i]));
     turns[p] = ports[p].sign * frame.rotation * cross_matrix(arm) * axes;
     levers[p] = -ports[p].sign * axes.transpose() * cross_matrix(lever);
     shifts[p] = ports[p].sign * axes;
@@ -59,6 +61,7 @@ ContactProblem::Part ContactProblem::make_part(const PlacedContacts& contacts,
   for (int b : mechanism.bodies()) {
     if (contacts.ports[b].empty()) continue;
     const Body& body = bodies[b];
+    const BodyCompliance compliance(body);
     std::vector<Port> ports = contacts.ports[b];
     for (Port& port : ports) {
       port.axes = contacts.frames[port.constraint].transpose() * body.rotation(body.stages() - 1);
@@ -68,13 +71,13 @@ ContactProblem::Part ContactProblem::make_part(const PlacedContacts& contacts,
     }
     if (jointed) {  // with the same levers as the joints
       add_port_compliance(ports, ports,
-                          body.compliance(Body::Group::contact, 0, Body::Group::contact, 0),
+                          compliance.between(NodeGroup::contact, 0, NodeGroup::contact, 0),
                           part.compliance);
       mechanism.add_coupling(b, ports, joints_by_contacts, part.contacts_by_joints);
       continue;
     }
     if (!body.is_rigid())
-      add_port_compliance(ports, ports, body.contact_deformation(), part.compliance);
+      add_port_compliance(ports, ports, compliance.contact_deformation(), part.compliance);
     add_frame_compliance(body, contacts.ports[b], ports, contacts, part.compliance);
   }
   if (jointed && size > 0) {

@@ -1,5 +1,7 @@
 #include "constraints/mechanism.hpp"
 
+#include "dynamics/body_compliance.hpp"
+
 #include <algorithm>
 #include <numeric>
 
@@ -104,12 +106,12 @@ void Mechanism::factorise() {
   DenseMatrix<double> w = DenseMatrix<double>::Zero(unknowns(), unknowns());
   for (int body : bodies_) {
     const std::vector<Port> ports = joint_ports(body);
+    const BodyCompliance compliance((*all_bodies_)[body]);
     for (int a = 0; a < stages_ && !ports.empty(); ++a)
       for (int b = 0; b < stages_; ++b)
-        add_port_compliance(
-            ports, ports,
-            (*all_bodies_)[body].compliance(Body::Group::joint, a, Body::Group::joint, b),
-            w.block(a * block, b * block, block, block));
+        add_port_compliance(ports, ports,
+                            compliance.between(NodeGroup::joint, a, NodeGroup::joint, b),
+                            w.block(a * block, b * block, block, block));
   }
   factors_ = std::make_unique<Lu<double>>(std::move(w));
   fresh_ = true;
@@ -177,7 +179,7 @@ Vec3 Mechanism::impulse_from_world() const {
     if (!body.has_inertia()) continue;
     std::vector<Vec3> forces;
     for (int a = 0; a < stages_; ++a)
-      forces.emplace_back(body.force_rotation(a) *
+      forces.emplace_back(body.step().force_rotation[a] *
                           forces_.col(a).segment<3>(static_cast<Eigen::Index>(3 * j)));
     sum += body.frame().impulse_of(forces);
   }
@@ -187,16 +189,16 @@ Vec3 Mechanism::impulse_from_world() const {
 void Mechanism::add_coupling(int body, const std::vector<Port>& contacts,
                              Eigen::MatrixXd& joints_by_contacts,
                              Eigen::MatrixXd& contacts_by_joints) const {
-  using Group = Body::Group;
   const std::vector<Port> joints = joint_ports(body);
   if (joints.empty() || contacts.empty()) return;
-  const Body& b = (*all_bodies_)[body];
+  const BodyCompliance compliance((*all_bodies_)[body]);
   const Eigen::Index block = unknowns() / stages_;
   for (int a = 0; a < stages_; ++a) {
-    add_port_compliance(joints, contacts, b.compliance(Group::joint, a, Group::contact, 0),
+    add_port_compliance(joints, contacts,
+                        compliance.between(NodeGroup::joint, a, NodeGroup::contact, 0),
                         joints_by_contacts.middleRows(a * block, block));
     add_port_compliance(contacts, joints,
-                        b.compliance(Group::contact, stages_ - 1, Group::joint, a),
+                        compliance.between(NodeGroup::contact, stages_ - 1, NodeGroup::joint, a),
                         contacts_by_joints.middleCols(a * block, block));
   }
 }

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/symmetric_matrix.hpp"
+#include "dynamics/end_check.hpp"
 #include "dynamics/rotation.hpp"
 
 #include <algorithm>
@@ -20,16 +21,18 @@ InitialMotion initial_motion(const BodySpec& spec, const BodyModel& model, const
   return m;
 }
 
-/// Centroids of the hat functions of some nodes on their triangles: int x phi_i / int phi_i.
-std::vector<Vec3> hat_centroids(const TriangleMesh& mesh, const std::vector<JointNode>& nodes) {
-  const auto moment = [&mesh](const Triangle& t, int v) {  // int x phi_v
-    return Vec3(
-        triangle_area(mesh, t) / 12 *
-        (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]] + mesh.vertices[v]));
-  };
+/// int x phi_v over a triangle with the corner v.
+Vec3 hat_moment(const TriangleMesh& mesh, const Triangle& t, int v) {
+  return triangle_area(mesh, t) / 12 *
+         (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]] + mesh.vertices[v]);
+}
+
+/// Where forces on joint nodes act: the centroids int x phi_i / int phi_i of their hat functions on
+/// their triangles if they are anchored, and else the nodes.
+std::vector<Vec3> joint_anchors(const TriangleMesh& mesh, const std::vector<JointNode>& nodes) {
   std::vector<Vec3> moments(mesh.vertices.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles)
-    for (int v : t) moments[v] += moment(t, v);
+    for (int v : t) moments[v] += hat_moment(mesh, t, v);
   const std::vector<double> areas = vertex_areas(mesh);
   std::vector<Vec3> out;
   for (const JointNode& n : nodes) {
@@ -39,11 +42,11 @@ std::vector<Vec3> hat_centroids(const TriangleMesh& mesh, const std::vector<Join
       sum.setZero();
       area = 0;
       for (int t : n.triangles) {
-        sum += moment(mesh.triangles[t], n.node);
+        sum += hat_moment(mesh, mesh.triangles[t], n.node);
         area += triangle_area(mesh, mesh.triangles[t]) / 3;
       }
     }
-    out.emplace_back(sum / area);
+    out.push_back(n.anchored ? Vec3(sum / area) : mesh.vertices[n.node]);
   }
   return out;
 }
@@ -76,7 +79,7 @@ Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec
              initial_motion(spec, *shared.model, gravity), spec.frame == FrameMotion::stationary),
       start_rotation_(frame_.rotation()),
       joint_nodes_(std::move(joint_nodes)),
-      anchor_levers_(hat_centroids(shared.model->geometry.nodes, joint_nodes_)) {
+      joint_anchors_(joint_anchors(shared.model->geometry.nodes, joint_nodes_)) {
   if (shared_.system)
     elastic_.emplace(*shared_.system, shared_.tractions.get(), node_numbers(joint_nodes_),
                      std::move(corners), spec.has_centrifugal() ? shared_.centrifugal : nullptr,
@@ -90,7 +93,7 @@ Body::Body(const BodySpec& spec, const SharedModel& shared, double dt, const Vec
     }
     loads_.push_back(std::move(p));
   }
-  forces_ = no_forces();
+  step_.forces = no_forces();
   displacement_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * shared.model->nodes()));
 }
 
@@ -126,12 +129,12 @@ FrameOffset::Leak Body::leak(bool held) const {
 
 /// The window on the rigid motion of a held body: a drag relative to its holder.
 void Body::set_drag(const std::optional<Holder>& holder) {
-  drag_ = {};
+  step_.drag = {};
   if (is_rigid() || !holder || shared_.model->window == 1) return;
-  drag_.rate = window_rate();
-  drag_.centre = holder->centre;
-  drag_.velocity = holder->velocity;
-  drag_.angular_velocity = holder->angular_velocity;
+  step_.drag.rate = window_rate();
+  step_.drag.centre = holder->centre;
+  step_.drag.velocity = holder->velocity;
+  step_.drag.angular_velocity = holder->angular_velocity;
   holder_rotation_.clear();
   for (const Mat3& r : holder->rotation) holder_rotation_.emplace_back(r * start_rotation_);
 }
@@ -139,18 +142,18 @@ void Body::set_drag(const std::optional<Holder>& holder) {
 /// How far the frame is turned from its holder at the stages, by its last rotations and, in a
 /// stationary frame, turns.
 void Body::set_lean(const std::vector<Vec3>& turns) {
-  drag_.rotation = frame_stages_.rotation;
-  drag_.lean.clear();
+  step_.drag.rotation = step_.frame.rotation;
+  step_.drag.lean.clear();
   for (int a = 0; a < stage_count_; ++a)
-    drag_.lean.push_back(turns[a] +
-                         rotation_log(drag_.rotation[a] * holder_rotation_[a].transpose()));
+    step_.drag.lean.push_back(
+        turns[a] + rotation_log(step_.drag.rotation[a] * holder_rotation_[a].transpose()));
 }
 
-void Body::begin_step(SpectralState free, bool held, const std::optional<Holder>& holder) {
+void Body::begin_step(FreeMotion free, bool held, const std::optional<Holder>& holder) {
   if (elastic_) elastic_->begin_step(std::move(free), leak(held));
   if (!has_inertia()) frame_.set_mobility(holder ? equilibrium_mobility(model()) : 0);
   set_drag(holder);
-  contact_nodes_.clear();
+  step_.contact_nodes.clear();
   forget_contact_forces();
   stay();
   end_known_ = false;
@@ -159,10 +162,10 @@ void Body::begin_step(SpectralState free, bool held, const std::optional<Holder>
 /// Until the first update() everything stays where it is.
 void Body::stay() {
   const RigidFrame::Stages now = frame_.current();
-  frame_stages_.translation.assign(stage_count_, now.translation[0]);
-  frame_stages_.rotation.assign(stage_count_, now.rotation[0]);
-  frame_stages_.turn.assign(stage_count_, now.turn[0]);
-  frame_stages_.angular_momentum.assign(stage_count_, now.angular_momentum[0]);
+  step_.frame.translation.assign(stage_count_, now.translation[0]);
+  step_.frame.rotation.assign(stage_count_, now.rotation[0]);
+  step_.frame.turn.assign(stage_count_, now.turn[0]);
+  step_.frame.angular_momentum.assign(stage_count_, now.angular_momentum[0]);
 }
 
 /// Refuses contacts where the archive has no loads.
@@ -182,41 +185,35 @@ void Body::check_loadable(const std::vector<int>& nodes) const {
 
 void Body::set_contact_nodes(std::vector<int> nodes) {
   check_loadable(nodes);
-  contact_nodes_ = std::move(nodes);
+  step_.contact_nodes = std::move(nodes);
   forget_contact_forces();
-  if (elastic_) elastic_->set_contact_nodes(contact_nodes_);
+  if (elastic_) elastic_->set_contact_nodes(step_.contact_nodes);
+}
+
+std::vector<int> Body::constraint_nodes(NodeGroup group) const {
+  return group == NodeGroup::joint ? node_numbers(joint_nodes_) : step_.contact_nodes;
 }
 
 ConstraintForces Body::no_forces() const {
   const auto joints = static_cast<Eigen::Index>(3 * joint_nodes_.size()),
-             contacts = static_cast<Eigen::Index>(3 * contact_nodes_.size());
+             contacts = static_cast<Eigen::Index>(3 * step_.contact_nodes.size());
   return {Eigen::MatrixXd::Zero(joints, stage_count_), Eigen::VectorXd::Zero(contacts),
           Vec3::Zero()};
 }
 
 void Body::forget_contact_forces() {
-  forces_.contact.setZero(static_cast<Eigen::Index>(3 * contact_nodes_.size()));
-  forces_.contact_moment.setZero();
-}
-
-NodalForces Body::nodal_forces() const {
-  NodalForces forces{forces_.joint, forces_.contact};
-  const Mat3 to_body = frame_stages_.rotation.back().transpose();
-  for (std::size_t i = 0; i < contact_nodes_.size(); ++i) {
-    auto f = forces.contact.segment<3>(static_cast<Eigen::Index>(3 * i));
-    f = to_body * Vec3(f);
-  }
-  return forces;
+  step_.forces.contact.setZero(static_cast<Eigen::Index>(3 * step_.contact_nodes.size()));
+  step_.forces.contact_moment.setZero();
 }
 
 Vec3 Body::joint_displacement(std::size_t i, int stage) const {
   if (!elastic_) return Vec3::Zero();
-  return node_displacements_.joint.col(stage).segment<3>(static_cast<Eigen::Index>(3 * i));
+  return step_.displacements.joint.col(stage).segment<3>(static_cast<Eigen::Index>(3 * i));
 }
 
 Vec3 Body::contact_displacement(std::size_t i) const {
   if (!elastic_) return Vec3::Zero();
-  return node_displacements_.contact.segment<3>(static_cast<Eigen::Index>(3 * i));
+  return step_.displacements.contact.segment<3>(static_cast<Eigen::Index>(3 * i));
 }
 
 /// Where the force on a joint node acts, from the centre of mass in body axes. In a moving frame
@@ -224,10 +221,8 @@ Vec3 Body::contact_displacement(std::size_t i) const {
 /// the constraint takes, and large vibrations of held bodies would grow. A stationary frame turns
 /// to first order, about the undeformed body.
 Vec3 Body::joint_lever(std::size_t i, int stage) const {
-  const JointNode& n = joint_nodes_[i];
-  if (!n.anchored) return model().geometry.nodes.vertices[n.node] + joint_displacement(i, stage);
-  if (spec_.is_stationary()) return anchor_levers_[i];
-  return anchor_levers_[i] + joint_displacement(i, stage);
+  if (joint_nodes_[i].anchored && spec_.is_stationary()) return joint_anchors_[i];
+  return joint_anchors_[i] + joint_displacement(i, stage);
 }
 
 FrameLoads Body::frame_loads() const {
@@ -239,33 +234,26 @@ FrameLoads Body::frame_loads() const {
       torque += p.load.torque() * p.stages.col(a);
     }
     for (std::size_t i = 0; i < joint_nodes_.size(); ++i) {
-      const Vec3 f = forces_.joint.col(a).segment<3>(static_cast<Eigen::Index>(3 * i));
+      const Vec3 f = step_.forces.joint.col(a).segment<3>(static_cast<Eigen::Index>(3 * i));
       force += f;
       torque += joint_lever(i, a).cross(f);
     }
-    out.forces.push_back(frame_stages_.rotation[a] * force);
-    out.torques.push_back(frame_stages_.rotation[a] * torque);
+    out.forces.push_back(step_.frame.rotation[a] * force);
+    out.torques.push_back(step_.frame.rotation[a] * torque);
   }
-  const Vec3 contact = contact_force();
+  const Vec3 contact = step_.contact_force();
   if (is_rigid()) {
     out.impulse = dt_ * contact;
-    out.angular_impulse = dt_ * forces_.contact_moment;
+    out.angular_impulse = dt_ * step_.forces.contact_moment;
     return out;
   }
   // the points that contact forces act at stay where they are, whichever stage the frame is at
   for (int a = 0; a < stage_count_; ++a) {
     out.forces[a] += contact;
-    out.torques[a] += forces_.contact_moment -
-                      (frame_stages_.translation[a] - frame_.translation()).cross(contact);
+    out.torques[a] += step_.forces.contact_moment -
+                      (step_.frame.translation[a] - frame_.translation()).cross(contact);
   }
   return out;
-}
-
-Vec3 Body::contact_force() const {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < contact_nodes_.size(); ++i)
-    sum += forces_.contact.segment<3>(static_cast<Eigen::Index>(3 * i));
-  return sum;
 }
 
 /// The centrifugal force by the rotation that is known at the stages, no larger than what would
@@ -278,7 +266,7 @@ double Body::set_centrifugal() {
   const double strain = m.density * extent * extent / m.shear_modulus;
   Eigen::MatrixXd entries(6, stage_count_);
   for (int a = 0; a < stage_count_; ++a) {
-    const Vec3 momentum = frame_stages_.rotation[a].transpose() * frame_stages_.angular_momentum[a];
+    const Vec3 momentum = step_.frame.rotation[a].transpose() * step_.frame.angular_momentum[a];
     const Vec3 w = frame_.inverse_inertia() * momentum;
     entries.col(a) = symmetric_entries(w.squaredNorm() * Mat3::Identity() - w * w.transpose());
   }
@@ -291,62 +279,78 @@ double Body::set_centrifugal() {
 }
 
 double Body::update(ConstraintForces forces) {
-  forces_ = std::move(forces);
+  step_.forces = std::move(forces);
   end_known_ = false;
   // forces that were tried and were too large leave nothing behind
   const auto finite = [](const auto& x) { return x.allFinite(); };
-  if (!std::all_of(frame_stages_.rotation.begin(), frame_stages_.rotation.end(), finite) ||
-      !std::all_of(frame_stages_.translation.begin(), frame_stages_.translation.end(), finite))
+  if (!std::all_of(step_.frame.rotation.begin(), step_.frame.rotation.end(), finite) ||
+      !std::all_of(step_.frame.translation.begin(), step_.frame.translation.end(), finite))
     stay();
   for (PrescribedLoad& p : loads_)
     for (int a = 0; a < stage_count_; ++a)
-      p.stages.col(a) = p.load.values(stage_time(a), frame_stages_.rotation[a]);
+      p.stages.col(a) = p.load.values(stage_time(a), step_.frame.rotation[a]);
   const bool jointed = !joint_nodes_.empty();
   double turn = 0;
   if (jointed) turn = set_centrifugal();
-  if (elastic_ && jointed) node_displacements_ = elastic_->displacements(loads_, nodal_forces());
-  force_rotation_ = frame_stages_.rotation;
-  if (drag_.rate > 0) set_lean(frame_stages_.turn);
-  frame_stages_ = frame_.stages(frame_loads(), drag_);
+  if (elastic_ && jointed)
+    step_.displacements = elastic_->displacements(loads_, step_.nodal_forces());
+  step_.force_rotation = step_.frame.rotation;
+  if (step_.drag.rate > 0) set_lean(step_.frame.turn);
+  step_.frame = frame_.stages(frame_loads(), step_.drag);
   if (elastic_ && !jointed) {
     // the torque of contact forces depends on the translation, the deformation on the rotation that
     // they bring about
-    if (!contact_nodes_.empty()) {
-      force_rotation_ = frame_stages_.rotation;
-      frame_stages_ = frame_.stages(frame_loads(), drag_);
+    if (!step_.contact_nodes.empty()) {
+      step_.force_rotation = step_.frame.rotation;
+      step_.frame = frame_.stages(frame_loads(), step_.drag);
     }
     set_centrifugal();
-    node_displacements_ = elastic_->displacements(loads_, nodal_forces());
+    step_.displacements = elastic_->displacements(loads_, step_.nodal_forces());
   }
   for (int a = 0; a < stage_count_; ++a)
-    turn = std::max(turn, (frame_stages_.rotation[a] - force_rotation_[a]).norm());
+    turn = std::max(turn, (step_.frame.rotation[a] - step_.force_rotation[a]).norm());
   return turn;
 }
 
 Vec3 Body::joint_position(std::size_t i, int stage) const {
-  return frame_.place(frame_stages_, stage,
+  return frame_.place(step_.frame, stage,
                       shared_.model->geometry.nodes.vertices[joint_nodes_[i].node],
                       joint_displacement(i, stage));
 }
 
 Vec3 Body::contact_position(std::size_t i) const {
-  return frame_.place(frame_stages_, stage_count_ - 1,
-                      shared_.model->geometry.nodes.vertices[contact_nodes_[i]],
+  return frame_.place(step_.frame, stage_count_ - 1,
+                      shared_.model->geometry.nodes.vertices[step_.contact_nodes[i]],
                       contact_displacement(i));
 }
 
 std::vector<Vec3> Body::end_positions() {
   if (!end_known_ && elastic_)
-    end_displacement_ = elastic_->end_displacement(loads_, nodal_forces());
+    end_displacement_ = elastic_->end_displacement(loads_, step_.nodal_forces());
   end_known_ = true;
   const std::vector<Vec3>& x = shared_.model->geometry.nodes.vertices;
   std::vector<Vec3> out;
   out.reserve(x.size());
   for (std::size_t i = 0; i < x.size(); ++i)
     out.push_back(
-        frame_.place(frame_stages_, stage_count_ - 1, x[i],
+        frame_.place(step_.frame, stage_count_ - 1, x[i],
                      elastic_ ? Vec3(end_displacement_.segment<3>(static_cast<Eigen::Index>(3 * i)))
                               : Vec3(Vec3::Zero())));
+  return out;
+}
+
+/// The nodes at the end of the step as seen from the frame.
+std::vector<Vec3> Body::end_shape() const {
+  const int last = stage_count_ - 1;
+  const Mat3 to_frame = step_.frame.rotation[last].transpose();
+  const std::vector<Vec3>& x = model().geometry.nodes.vertices;
+  std::vector<Vec3> out;
+  out.reserve(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec3 u = end_displacement_.segment<3>(static_cast<Eigen::Index>(3 * i));
+    out.emplace_back(to_frame *
+                     (frame_.place(step_.frame, last, x[i], u) - step_.frame.translation[last]));
+  }
   return out;
 }
 
@@ -357,12 +361,12 @@ void Body::move_frame_by(const Vector6& acceleration) {
   FrameLoads loads;
   loads.forces = {r * (mass.mass * acceleration.head<3>())};
   loads.torques = {r * (mass.inertia * acceleration.tail<3>())};
-  frame_stages_ = frame_.stages(loads, drag_);
+  step_.frame = frame_.stages(loads, step_.drag);
 }
 
 void Body::end_step() {
   if (elastic_) {
-    if (!end_known_) end_displacement_ = elastic_->end_displacement(loads_, nodal_forces());
+    if (!end_known_) end_displacement_ = elastic_->end_displacement(loads_, step_.nodal_forces());
     const auto corrected = elastic_->end_step();
     if (corrected) {
       move_frame_by(corrected->acceleration);
@@ -370,13 +374,14 @@ void Body::end_step() {
     }
     for (PrescribedLoad& p : loads_) p.history.push(p.stages);
   }
-  check_end();
+  const double end = stage_time(stage_count_ - 1);
+  check_end(spec_.name, model(), step_.frame, end_displacement_, end);
   if (elastic_) {
-    deformation_.record(model().geometry.nodes, end_shape(), stage_time(stage_count_ - 1));
-    check_inversion();
+    deformation_.record(model().geometry.nodes, end_shape(), end);
+    check_inversion(spec_.name, model(), deformation_, end);
     displacement_ = end_displacement_;
   }
-  frame_.advance(frame_stages_);
+  frame_.advance(step_.frame);
 }
 
 void Body::visit_state(StateArchive& state) {

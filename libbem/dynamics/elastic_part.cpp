@@ -60,15 +60,17 @@ Eigen::MatrixXd ElasticPart::history_sums(const std::vector<PrescribedLoad>& loa
   return sums;
 }
 
-void ElasticPart::begin_step(SpectralState free, const FrameOffset::Leak& leak) {
-  free_ = std::move(free);
+void ElasticPart::begin_step(FreeMotion free, const FrameOffset::Leak& leak) {
+  free_ = std::move(free.state);
+  solution_memory_ = std::move(free.memory);
   const bool other_gain = leak != leak_;
   if (other_gain) offset_.set_leak(leak_ = leak);
   if (!joint_nodes_.empty() && (joint_joint_.empty() || other_gain)) {
     joint_joint_.clear();
     for (int a = 0; a < system_.scheme().stages(); ++a)
       for (int b = 0; b < system_.scheme().stages(); ++b)
-        joint_joint_.push_back(response(Group::joint, a, Group::joint, pattern(Group::joint, b)));
+        joint_joint_.push_back(
+            response(NodeGroup::joint, a, NodeGroup::joint, pattern(NodeGroup::joint, b)));
   }
   if (other_gain) compliance_nodes_.clear();
   contact_nodes_.clear();
@@ -79,21 +81,21 @@ void ElasticPart::set_contact_nodes(const std::vector<int>& nodes) {
   if (nodes == compliance_nodes_ || nodes.empty()) return;
   compliance_nodes_ = nodes;
   const int stages = system_.scheme().stages(), last = stages - 1;
-  const StageVector constant = pattern(Group::contact, 0);
-  contact_contact_ = response(Group::contact, last, Group::contact, constant);
+  const StageVector constant = pattern(NodeGroup::contact, 0);
+  contact_contact_ = response(NodeGroup::contact, last, NodeGroup::contact, constant);
   joint_contact_.clear();
   contact_joint_.clear();
   for (int a = 0; a < stages && !joint_nodes_.empty(); ++a) {
-    joint_contact_.push_back(response(Group::joint, a, Group::contact, constant));
+    joint_contact_.push_back(response(NodeGroup::joint, a, NodeGroup::contact, constant));
     contact_joint_.push_back(
-        response(Group::contact, last, Group::joint, pattern(Group::joint, a)));
+        response(NodeGroup::contact, last, NodeGroup::joint, pattern(NodeGroup::joint, a)));
   }
 }
 
 /// How a unit force is spread over the stages.
-StageVector ElasticPart::pattern(Group group, int stage) const {
+StageVector ElasticPart::pattern(NodeGroup group, int stage) const {
   const int stages = system_.scheme().stages();
-  if (group == Group::contact) return StageVector::Ones(stages);
+  if (group == NodeGroup::contact) return StageVector::Ones(stages);
   return StageVector::Unit(stages, stage);
 }
 
@@ -104,7 +106,7 @@ struct ElasticPart::UnitTractions {
 };
 
 ElasticPart::UnitTractions ElasticPart::unit_tractions(int component, const std::vector<int>& rows,
-                                                       Group columns) const {
+                                                       NodeGroup columns) const {
   const std::vector<int>& loaded = nodes(columns);
   UnitTractions out{tractions_->response(component, rows, loaded),
                     tractions_->acceleration(component, loaded)};
@@ -119,7 +121,7 @@ ElasticPart::UnitTractions ElasticPart::unit_tractions(int component, const std:
   return out;
 }
 
-Eigen::MatrixXd ElasticPart::balanced_acceleration(Group columns) const {
+Eigen::MatrixXd ElasticPart::balanced_acceleration(NodeGroup columns) const {
   Eigen::MatrixXd out = tractions_->balanced_acceleration(nodes(columns));
   for (std::size_t j = 0; j < nodes(columns).size(); ++j)
     if (is_corner(columns, j))
@@ -129,7 +131,7 @@ Eigen::MatrixXd ElasticPart::balanced_acceleration(Group columns) const {
 }
 
 /// (a', alpha) by unit forces at nodes of a group.
-Eigen::MatrixXd ElasticPart::unit_accelerations(Group columns) const {
+Eigen::MatrixXd ElasticPart::unit_accelerations(NodeGroup columns) const {
   const BodyGeometry& g = system_.model().geometry;
   const Mat3 inverse = g.mass.inertia.inverse();
   const std::vector<int>& loaded = nodes(columns);
@@ -151,8 +153,8 @@ Vector6 ElasticPart::predicted_acceleration(const std::vector<PrescribedLoad>& l
     out.head<3>() += p.load.force() * p.stages.col(0) / mass.mass;
     out.tail<3>() += mass.inertia.inverse() * (p.load.torque() * p.stages.col(0));
   }
-  if (forces.joint.size() > 0) out += unit_accelerations(Group::joint) * forces.joint.col(0);
-  if (forces.contact.size() > 0) out += unit_accelerations(Group::contact) * forces.contact;
+  if (forces.joint.size() > 0) out += unit_accelerations(NodeGroup::joint) * forces.joint.col(0);
+  if (forces.contact.size() > 0) out += unit_accelerations(NodeGroup::contact) * forces.contact;
   return out;
 }
 
@@ -164,7 +166,7 @@ Eigen::MatrixXd ElasticPart::lift(const std::vector<int>& rows,
 
 /// Displacement of some nodes at a stage by unit forces on others: deformation, and the offset from
 /// the frame that it causes.
-Eigen::MatrixXd ElasticPart::response(Group rows, int row_stage, Group columns,
+Eigen::MatrixXd ElasticPart::response(NodeGroup rows, int row_stage, NodeGroup columns,
                                       const StageVector& pattern) const {
   const auto& initial = system_.scheme().initial_components();
   const std::vector<int>& loaded = nodes(columns);
@@ -189,13 +191,13 @@ Eigen::MatrixXd ElasticPart::response(Group rows, int row_stage, Group columns,
   return out;
 }
 
-Eigen::MatrixXd ElasticPart::compliance(Group rows, int row_stage, Group columns,
+Eigen::MatrixXd ElasticPart::compliance(NodeGroup rows, int row_stage, NodeGroup columns,
                                         int load_stage) const {
   const int stages = system_.scheme().stages();
-  if (rows == Group::joint && columns == Group::joint)
+  if (rows == NodeGroup::joint && columns == NodeGroup::joint)
     return joint_joint_[row_stage * stages + load_stage];
-  if (rows == Group::joint) return joint_contact_[row_stage];
-  if (columns == Group::joint) return contact_joint_[load_stage];
+  if (rows == NodeGroup::joint) return joint_contact_[row_stage];
+  if (columns == NodeGroup::joint) return contact_joint_[load_stage];
   return contact_contact_;
 }
 
@@ -256,7 +258,7 @@ NodalLoad ElasticPart::nodal_load(const NodalForces& forces) const {
              std::back_inserter(nodes));
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   load.stages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * nodes.size()), stages);
-  const auto add = [&](Group kind, const Eigen::MatrixXd& values) {
+  const auto add = [&](NodeGroup kind, const Eigen::MatrixXd& values) {
     const std::vector<int>& group = this->nodes(kind);
     for (std::size_t i = 0; i < group.size(); ++i) {
       if (is_corner(kind, i)) continue;
@@ -265,8 +267,8 @@ NodalLoad ElasticPart::nodal_load(const NodalForces& forces) const {
           values.middleRows<3>(static_cast<Eigen::Index>(3 * i)) / areas_[group[i]];
     }
   };
-  add(Group::joint, forces.joint);
-  add(Group::contact, forces.contact.replicate(1, stages));
+  add(NodeGroup::joint, forces.joint);
+  add(NodeGroup::contact, forces.contact.replicate(1, stages));
   load.nodes = std::move(nodes);
   return load;
 }
@@ -276,7 +278,7 @@ Eigen::MatrixXd ElasticPart::corner_load(const NodalForces& forces) const {
   if (!corners_) return {};
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(corners_->inputs(), system_.scheme().stages());
   for (std::size_t i = 0; i < joint_nodes_.size(); ++i)
-    if (is_corner(Group::joint, i))
+    if (is_corner(NodeGroup::joint, i))
       out.middleRows<3>(corners_->input_of(i)) =
           forces.joint.middleRows<3>(static_cast<Eigen::Index>(3 * i)) /
           corners_->areas[corners_->shape_of_joint[i]];

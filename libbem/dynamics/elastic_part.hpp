@@ -18,6 +18,9 @@ struct PrescribedLoad {
   Eigen::MatrixXd stages;  ///< inputs x s of the current step
 };
 
+/// The nodes of a body that constraints act on: those of joints, and those in contact.
+enum class NodeGroup { joint, contact };
+
 /// Forces on single nodes of a body during a step, in its axes.
 struct NodalForces {
   Eigen::MatrixXd joint;    ///< on the joint nodes, 3 per node, stage by stage [N]
@@ -41,12 +44,12 @@ class ElasticPart {
 
   const MotionHistory& motion_history() const { return motion_history_; }
   /// Of the displacements without new loads.
-  SolutionMemory& solution_memory() { return solution_memory_; }
+  const SolutionMemory& solution_memory() const { return solution_memory_; }
   /// What the history of everything but the displacements contributes: 3N x components.
   Eigen::MatrixXd history_sums(const std::vector<PrescribedLoad>& loads) const;
   /// Starts a step, without contact nodes, from the displacements without new loads. `leak`: of the
   /// frame offset.
-  void begin_step(SpectralState free, const FrameOffset::Leak& leak);
+  void begin_step(FreeMotion free, const FrameOffset::Leak& leak);
   void set_contact_nodes(const std::vector<int>& nodes);
 
   bool has_centrifugal() const { return centrifugal_ != nullptr; }
@@ -64,10 +67,10 @@ class ElasticPart {
   Displacements displacements(const std::vector<PrescribedLoad>& loads,
                               const NodalForces& forces) const;
 
-  enum class Group { joint, contact };
   /// d(displacement at `row_stage`)/d(force of stage `load_stage`) between groups of nodes [m/N].
   /// Forces on contact nodes act at all stages: `load_stage` is ignored for them.
-  Eigen::MatrixXd compliance(Group rows, int row_stage, Group columns, int load_stage) const;
+  Eigen::MatrixXd compliance(NodeGroup rows, int row_stage, NodeGroup columns,
+                             int load_stage) const;
 
   const Eigen::MatrixXd& contact_compliance() const { return contact_contact_; }
 
@@ -108,19 +111,20 @@ class ElasticPart {
                               const NodalLoad& nodal, const Eigen::MatrixXd& corner) const;
   Vector6 predicted_acceleration(const std::vector<PrescribedLoad>& loads,
                                  const NodalForces& forces) const;
-  Eigen::MatrixXd unit_accelerations(Group columns) const;
+  Eigen::MatrixXd unit_accelerations(NodeGroup columns) const;
   Eigen::MatrixXd lift(const std::vector<int>& rows, const Eigen::MatrixXd& accelerations) const;
-  bool is_corner(Group group, std::size_t i) const {
-    return group == Group::joint && corners_ && corners_->input_of(i) >= 0;
+  bool is_corner(NodeGroup group, std::size_t i) const {
+    return group == NodeGroup::joint && corners_ && corners_->input_of(i) >= 0;
   }
   struct UnitTractions;
-  UnitTractions unit_tractions(int component, const std::vector<int>& rows, Group columns) const;
-  Eigen::MatrixXd balanced_acceleration(Group columns) const;
-  Eigen::MatrixXd response(Group rows, int row_stage, Group columns,
+  UnitTractions unit_tractions(int component, const std::vector<int>& rows,
+                               NodeGroup columns) const;
+  Eigen::MatrixXd balanced_acceleration(NodeGroup columns) const;
+  Eigen::MatrixXd response(NodeGroup rows, int row_stage, NodeGroup columns,
                            const StageVector& pattern) const;
-  StageVector pattern(Group group, int stage) const;
-  const std::vector<int>& nodes(Group group) const {
-    return group == Group::joint ? joint_nodes_ : contact_nodes_;
+  StageVector pattern(NodeGroup group, int stage) const;
+  const std::vector<int>& nodes(NodeGroup group) const {
+    return group == NodeGroup::joint ? joint_nodes_ : contact_nodes_;
   }
 
   const ElasticSystem& system_;

@@ -46,6 +46,12 @@ class SolutionMemory {
   std::vector<std::deque<Pair>> pairs_;  ///< [component], oldest first
 };
 
+/// The motion of a body in a step if nothing new acts on it, and the memory with its solution.
+struct FreeMotion {
+  SpectralState state;
+  SolutionMemory memory;
+};
+
 /// The linear part of a time step: products with the history, solution at lag 0, removal of rigid
 /// motion. Refers to a model; holds no state of a motion.
 class ElasticSystem {

@@ -1,5 +1,7 @@
 #include "simulation/simulation.hpp"
 
+#include "dynamics/body_output.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,7 +53,7 @@ Simulation::Simulation(const Scene& scene, ModelSource& source)
 /// The motion without new forces: products with the history, once for bodies of the same archive.
 void Simulation::move_freely() {
   std::vector<Body>& bodies = loaded_.bodies;
-  const auto begin = [&](int b, SpectralState free) {
+  const auto begin = [&](int b, FreeMotion free) {
     bodies[b].begin_step(std::move(free), constraints_->is_held(b), constraints_->holder(b));
   };
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -65,11 +67,14 @@ void Simulation::move_freely() {
     }
     const ElasticSystem& system = bodies[group[0]].system();
     system.subtract_motion_history(motions, sums);
-    std::vector<SolutionMemory*> memories;
-    for (int b : group)
-      if (system.model().is_iterative()) memories.push_back(&bodies[b].solution_memory());
-    std::vector<SpectralState> states = system.solve(sums, motions, memories);
-    for (std::size_t i = 0; i < group.size(); ++i) begin(group[i], std::move(states[i]));
+    std::vector<SolutionMemory> memories;
+    for (int b : group) memories.push_back(bodies[b].solution_memory());
+    std::vector<SolutionMemory*> used;
+    if (system.model().is_iterative())
+      for (SolutionMemory& m : memories) used.push_back(&m);
+    std::vector<SpectralState> states = system.solve(sums, motions, used);
+    for (std::size_t i = 0; i < group.size(); ++i)
+      begin(group[i], {std::move(states[i]), std::move(memories[i])});
   }
 }
 
@@ -92,7 +97,7 @@ void Simulation::step() {
 /// Takes the motion as it is now, and what has brought it about.
 void Simulation::end_step() {
   Impulses step;
-  for (const Body& body : loaded_.bodies) step += body.impulses();
+  for (const Body& body : loaded_.bodies) step += BodyOutput(body).impulses();
   constraints_->add_impulses(step);
   for (Body& body : loaded_.bodies) body.end_step();
   momentum_.add_step(step, loaded_.bodies);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dynamics/body_output.hpp"
 #include "support/simulate.hpp"
 #include "verification/beam_modes.hpp"
 
@@ -42,7 +43,7 @@ inline std::vector<double> tip_deflections(const ClampedBeam& beam_spec, int acr
   std::vector<double> tip;
   for (int n = 0; n < steps; ++n) {
     simulation.step();
-    const std::vector<bem::Vec3> x = simulation.bodies()[0].positions();
+    const std::vector<bem::Vec3> x = bem::BodyOutput(simulation.bodies()[0]).positions();
     double sum = 0;
     int count = 0;
     for (std::size_t v = 0; v < x.size(); ++v) {

@@ -1,6 +1,7 @@
 // Order of convergence in time with handles and joints, against that of a free body; space is
 // fixed. Printed figures are quoted in docs/accuracy/contact.md, "Order in time with
 // handles and joints".
+#include "dynamics/body_output.hpp"
 #include "support/contact_scenes.hpp"
 
 #include <cstdio>
@@ -134,7 +135,8 @@ struct Run {
       REQUIRE(simulation.statistics().converged());
       if (n % (steps / 8) != 0) continue;
       for (const Body& b : simulation.bodies())
-        for (const Vec3& x : b.positions()) out.insert(out.end(), x.data(), x.data() + 3);
+        for (const Vec3& x : BodyOutput(b).positions())
+          out.insert(out.end(), x.data(), x.data() + 3);
     }
     return Eigen::Map<Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
   }

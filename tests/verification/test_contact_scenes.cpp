@@ -1,5 +1,6 @@
 // The scenes of scenes/contact, with coarser bodies where the shipped ones are large.
 #include "collision/self_penetration.hpp"
+#include "dynamics/body_output.hpp"
 #include "mesh/extent.hpp"
 #include "scene/motion.hpp"
 #include "scene/scene_json.hpp"
@@ -93,8 +94,8 @@ class SceneRun {
     }
     size_ = 1e300;
     for (const Body& b : bodies()) {
-      size_ = std::min(size_, diameter(b.node_positions()));
-      positions_.push_back(b.node_positions());
+      size_ = std::min(size_, diameter(BodyOutput(b).node_positions()));
+      positions_.push_back(BodyOutput(b).node_positions());
     }
     speeds_.resize(bodies().size());
   }
@@ -103,7 +104,7 @@ class SceneRun {
     simulation_->step();
     REQUIRE(simulation_->statistics().converged());
     for (std::size_t b = 0; b < bodies().size(); ++b) {
-      std::vector<Vec3> now = bodies()[b].node_positions();
+      std::vector<Vec3> now = BodyOutput(bodies()[b]).node_positions();
       speeds_[b] = 0;
       for (std::size_t i = 0; i < now.size(); ++i)
         speeds_[b] = std::max(speeds_[b],

@@ -1,5 +1,6 @@
 // The paper's correction beside the projection: momentum and deformation after a push. Printed
 // figures are quoted in docs/accuracy/momentum.md, "The paper's correction".
+#include "dynamics/body_output.hpp"
 #include "model/rigid_projection.hpp"
 #include "support/simulate.hpp"
 
@@ -110,7 +111,7 @@ TEST_CASE("bodies corrected by least squares can be held and touched") {
     scene.bodies[0].correction = correction;
     Simulation simulation(scene, source);
     for (int n = 0; n < 300; ++n) simulation.step();
-    const std::vector<Vec3> x = simulation.bodies()[0].positions();
+    const std::vector<Vec3> x = BodyOutput(simulation.bodies()[0]).positions();
     double& lowest = sag[correction == Correction::least_squares];
     lowest = 0;
     for (std::size_t v = 0; v < x.size(); ++v)

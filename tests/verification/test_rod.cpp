@@ -1,4 +1,5 @@
 // Rod of 1 x 0.2 x 0.2 m with nu = 0 under a suddenly applied end load: exact in three dimensions.
+#include "dynamics/body_output.hpp"
 #include "support/simulate.hpp"
 
 #include <cstdio>
@@ -47,7 +48,7 @@ class ReactionMeter {
   explicit ReactionMeter(const TriangleMesh& mesh) : mesh_(mesh), areas_(vertex_areas(mesh)) {}
 
   void sample(const Body& body, double t) {
-    const std::vector<Vec3> tractions = body.tractions();
+    const std::vector<Vec3> tractions = BodyOutput(body).tractions();
     double force = 0;
     for (std::size_t v = 0; v < areas_.size(); ++v)
       if (mesh_.vertices[v][0] < -0.4999) force += areas_[v] * tractions[v][0];
@@ -95,7 +96,7 @@ RodRun run_rod(const char* scheme, bool fixed, int cells, double steps_per_perio
   const int steps = static_cast<int>(std::lround(2 * steps_per_period));
   for (int n = 1; n <= steps; ++n) {
     simulation.step();
-    const std::vector<Vec3> x = simulation.bodies()[0].positions();
+    const std::vector<Vec3> x = BodyOutput(simulation.bodies()[0]).positions();
     double mean = 0;
     int count = 0;
     for (std::size_t v = 0; v < x.size(); ++v) {

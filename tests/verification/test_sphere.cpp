@@ -1,5 +1,6 @@
 // Sphere under sudden uniform pressure: modal series (docs/accuracy/exact-solutions.md), compared
 // at the surface.
+#include "dynamics/body_output.hpp"
 #include "support/simulate.hpp"
 
 #include <cstdio>
@@ -87,7 +88,7 @@ double sphere_error(const char* scheme, const Sphere& s, int subdivisions, int s
   double sum = 0;
   for (int n = 0; n < steps; ++n) {
     simulation.step();
-    const std::vector<Vec3> x = simulation.bodies()[0].positions();
+    const std::vector<Vec3> x = BodyOutput(simulation.bodies()[0]).positions();
     double mean = 0;
     for (std::size_t v = 0; v < x.size(); ++v)
       mean += (x[v].norm() - g.input.vertices[v].norm()) / static_cast<double>(x.size());

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "checkpoint.hpp"
+#include "dynamics/body_output.hpp"
 #include "files/pending_file.hpp"
 #include "mesh/describe.hpp"
 #include "output/output_directory.hpp"
@@ -20,7 +21,7 @@ namespace {
 /// x is at translation + rotation * x.
 BodyFrame frame_of(const BodySpec& spec, const Body& body, bool tractions) {
   BodyFrame out;
-  out.positions = body.positions();
+  out.positions = BodyOutput(body).positions();
   if (spec.frame == FrameMotion::stationary) {
     out.rotation = spec.rotation.matrix();
     out.translation = spec.position;
@@ -28,7 +29,7 @@ BodyFrame frame_of(const BodySpec& spec, const Body& body, bool tractions) {
     out.rotation = body.frame().rotation();
     out.translation = body.frame().translation() - out.rotation * body.model().geometry.mass.centre;
   }
-  if (tractions) out.tractions = body.tractions();
+  if (tractions) out.tractions = BodyOutput(body).tractions();
   return out;
 }
 

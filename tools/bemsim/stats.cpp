@@ -116,7 +116,7 @@ Json body_json(const PlannedBody& planned, const Body& body, const Json& coarsen
            {"archive", planned.spec->archive.written},
            {"vertices", model.geometry.input.vertices.size()},
            {"prescribed_vertices", planned.fixed + planned.handled},
-           {"loads", body.loads()},
+           {"loads", body.loads().size()},
            {"window", model.window}};
   if (model.report.growth > 0) out["growth"] = model.report.growth;
   out["linear_momentum"] = vector_json(body.linear_momentum());

@@ -1,4 +1,5 @@
-#include "dynamics/body.hpp"
+#include "dynamics/body_compliance.hpp"
+#include "dynamics/body_output.hpp"
 #include "support/contact_scenes.hpp"
 
 #include <catch2/catch.hpp>
@@ -8,7 +9,7 @@ using namespace bem_test;
 
 namespace {
 
-using Group = Body::Group;
+using Group = NodeGroup;
 
 /// A body with joint nodes 0 (anchored) and 5, all nodes of which may be touched.
 struct Trial {
@@ -39,7 +40,7 @@ struct Trial {
     if (!rigid)
       still = shared.system->solve(
           {Eigen::MatrixXd::Zero(3 * shared.model->nodes(), shared.model->components())})[0];
-    body->begin_step(std::move(still), false, std::nullopt);
+    body->begin_step({std::move(still), {}}, false, std::nullopt);
     body->set_contact_nodes({3, 5, 9});
     settle();
   }
@@ -95,10 +96,10 @@ TEST_CASE("compliances are the derivatives of the positions by the forces") {
               const Group rows = a < stages ? Group::joint : Group::contact;
               const Eigen::VectorXd moved =
                   (trial.positions(rows, std::min(a, stages - 1)) - before[a]) / kForce;
-              const Eigen::MatrixXd block = body.compliance(rows, a, columns, b);
+              const Eigen::MatrixXd block = BodyCompliance(body).between(rows, a, columns, b);
               // the force of the last stage does not move a rigid body at its end
               const double rounding =
-                  1e-7 * body.compliance(Group::contact, 0, Group::contact, 0).norm();
+                  1e-7 * BodyCompliance(body).between(Group::contact, 0, Group::contact, 0).norm();
               CHECK((moved - block.col(j)).norm() <=
                     1e-5 * block.colwise().norm().maxCoeff() + rounding);
             }
@@ -122,7 +123,7 @@ TEST_CASE("the end of a step is where its constraint nodes are") {
     for (std::size_t i = 0; i < 3; ++i)
       CHECK((end[body.contact_nodes()[i]] - body.contact_position(i)).norm() < 1e-14);
     body.end_step();
-    const std::vector<Vec3> now = body.node_positions();
+    const std::vector<Vec3> now = BodyOutput(body).node_positions();
     for (std::size_t i = 0; i < now.size(); ++i) CHECK((now[i] - end[i]).norm() < 1e-14);
   }
 }
