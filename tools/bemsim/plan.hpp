@@ -1,8 +1,8 @@
 #pragma once
 
-#include "simulation/archive_source.hpp"
 #include "frame_schedule.hpp"
 #include "options.hpp"
+#include "simulation/archive_source.hpp"
 #include "twist.hpp"
 
 #include <iosfwd>

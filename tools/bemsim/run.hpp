@@ -1,9 +1,9 @@
 #pragma once
 
-#include "simulation/archive_source.hpp"
 #include "common/cli.hpp"
 #include "options.hpp"
 #include "plan.hpp"
+#include "simulation/archive_source.hpp"
 
 namespace bem {
 
