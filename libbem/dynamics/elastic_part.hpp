@@ -3,6 +3,7 @@
 #include "dynamics/corner_loads.hpp"
 #include "dynamics/frame_offset.hpp"
 #include "dynamics/least_squares.hpp"
+#include "dynamics/nodal_forces.hpp"
 #include "dynamics/surface_load.hpp"
 #include "model/nodal_tractions.hpp"
 
@@ -16,15 +17,6 @@ struct PrescribedLoad {
   SurfaceLoad load;
   LagHistory history;
   Eigen::MatrixXd stages;  ///< inputs x s of the current step
-};
-
-/// The nodes of a body that constraints act on: those of joints, and those in contact.
-enum class NodeGroup { joint, contact };
-
-/// Forces on single nodes of a body during a step, in its axes.
-struct NodalForces {
-  Eigen::MatrixXd joint;    ///< on the joint nodes, 3 per node, stage by stage [N]
-  Eigen::VectorXd contact;  ///< on the contact nodes, constant over the step [N]
 };
 
 /// The deformation of one body: displacements in its frame, free of rigid motion but for the frame

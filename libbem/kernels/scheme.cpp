@@ -7,8 +7,14 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace bem {
+namespace {
+
+constexpr std::string_view kThetaPrefix = "theta:";
+
+}  // namespace
 
 Scheme Scheme::radau2() {
   Scheme s;
@@ -94,7 +100,7 @@ Scheme Scheme::multistep(double theta) {
   } else {
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, theta).ptr;
-    s.name_ = "theta:" + std::string(digits, end);
+    s.name_ = std::string(kThetaPrefix) + std::string(digits, end);
   }
   const auto scalar = [](double value) { return StageMatrix::Constant(1, 1, value); };
   s.stage_times_ = StageVector::Ones(1);
@@ -107,20 +113,17 @@ Scheme Scheme::multistep(double theta) {
 }
 
 Scheme Scheme::parse(const std::string& name) {
-  if (name == "radau2") return radau2();
-  if (name == "radau3") return radau3();
-  if (name == "bdf1") return multistep(0);
-  if (name == "bdf2") return multistep(1);
-  if (name.rfind("theta:", 0) == 0) {
+  for (const NamedScheme& s : named_schemes())
+    if (name == s.name) return s.make();
+  if (name.rfind(kThetaPrefix, 0) == 0) {
     double theta = -1;
     const char* end = name.data() + name.size();
-    const auto result = std::from_chars(name.data() + 6, end, theta);
+    const auto result = std::from_chars(name.data() + kThetaPrefix.size(), end, theta);
     if (result.ec == std::errc() && result.ptr == end && theta >= 0 && theta <= 1)
       return multistep(theta);
   }
   throw Error(ErrorCode::usage,
-              "unknown time discretisation \"" + name +
-                  "\"; use radau2, radau3, bdf1, bdf2 or theta:T with 0 <= T <= 1");
+              "unknown time discretisation \"" + name + "\"; use " + scheme_names());
 }
 
 Scheme Scheme::windowed(double q) const {
@@ -208,6 +211,21 @@ int history_length_for_tolerance(const Scheme& scheme, double lam, double tolera
     if (tail > tolerance) return k;
   }
   return 1;
+}
+
+const std::vector<NamedScheme>& named_schemes() {
+  static const std::vector<NamedScheme> schemes = {{"radau2", Scheme::radau2},
+                                                   {"radau3", Scheme::radau3},
+                                                   {"bdf1", [] { return Scheme::multistep(0); }},
+                                                   {"bdf2", [] { return Scheme::multistep(1); }}};
+  return schemes;
+}
+
+std::string scheme_names() {
+  std::string out;
+  for (const NamedScheme& s : named_schemes())
+    out += (out.empty() ? "" : ", ") + std::string(s.name);
+  return out + " or " + std::string(kThetaPrefix) + "T with 0 <= T <= 1";
 }
 
 }  // namespace bem

@@ -44,8 +44,8 @@ struct LagComponent {
 /// Delta depends on zeta through a rank-one matrix. So many components are stored.
 class Scheme {
  public:
-  /// "radau2", "radau3", "bdf1", "bdf2" or "theta:T" with 0 <= T <= 1; throws ErrorCode::usage
-  /// otherwise.
+  /// A name of named_schemes(), or "theta:T" with 0 <= T <= 1 for a multistep method; throws
+  /// ErrorCode::usage otherwise.
   static Scheme parse(const std::string& name);
   static Scheme radau2();
   static Scheme radau3();
@@ -90,6 +90,16 @@ class Scheme {
   std::vector<LagComponent> components_;
   Eigen::MatrixXd extraction_;  ///< components x s^2: extract() of a weight, row after row
 };
+
+/// A scheme that a name chooses. To add one: a function that makes it, and its row in scheme.cpp.
+struct NamedScheme {
+  const char* name;
+  Scheme (*make)();
+};
+/// In the order in which messages list them.
+const std::vector<NamedScheme>& named_schemes();
+/// What Scheme::parse() takes, as a message says it.
+std::string scheme_names();
 
 /// The series of p(Delta(zeta)) in powers of zeta, where p(d) = p[0] + p[1] d + p[2] d^2.
 std::vector<StageMatrix> delta_polynomial(const Scheme& scheme, const std::array<double, 3>& p);

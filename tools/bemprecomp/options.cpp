@@ -40,9 +40,7 @@ void add_matrix_options(CLI::App& app, Typed& t) {
   app.option_defaults()->group("Matrices");
   app.add_option("--dt", o.dt, "time step [s]; default: the material's \"time_step\"")
       ->type_name("S");
-  app.add_option(
-         "--scheme", o.scheme,
-         "radau2, radau3, bdf1, bdf2 or theta:T with 0 <= T <= 1 (radau2; --model static: bdf1)")
+  app.add_option("--scheme", o.scheme, scheme_names() + " (radau2; --model static: bdf1)")
       ->type_name("NAME");
   app.add_option("--discretisation", t.method,
                  "in space: galerkin, which neither stiffens bodies nor lets motions grow, or "
