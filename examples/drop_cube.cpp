@@ -4,7 +4,7 @@
 //
 //   drop_cube            prints CSV: time [s], contact force [N], height of the centre [m]
 #include "mesh/shapes.hpp"
-#include "model/precompute.hpp"
+#include "model/defaults.hpp"
 #include "simulation/memory_source.hpp"
 #include "simulation/simulation.hpp"
 
@@ -12,14 +12,16 @@
 
 int main() {
   const double size = 0.1, speed = 1, dt = 1e-3;  // [m], [m/s], [s]
-  const bem::Material rubber{"rubber", 1000, 1e5, 0.3, {}};
+  bem::Material rubber;
+  rubber.density = 1000;       // [kg/m^3]
+  rubber.shear_modulus = 1e5;  // [Pa]
+  rubber.poisson_ratio = 0.3;
 
   // the body: a closed surface, its mass, and its matrices for this time step
   const bem::TriangleMesh mesh = bem::box(bem::Vec3(size, size, size), {2, 2, 2});
-  const bem::BodyGeometry geometry =
-      bem::make_geometry(bem::make_surface(mesh, "cube"), rubber.density);
+  const bem::DefaultBody cube_body = bem::default_body(mesh, rubber, dt);
   bem::MemorySource source;
-  source.add("cube", bem::precompute(geometry, bem::default_options(geometry, rubber, dt)));
+  source.add("cube", bem::precompute(cube_body.geometry, cube_body.options));
 
   // the scene: what a scene file says
   bem::Scene scene;
@@ -44,7 +46,7 @@ int main() {
   std::printf("t,force,height\n");
   for (int n = 0; n < 60; ++n) {
     simulation.step();
-    double force = 0;  // on the body: it is side a of contacts with an obstacle
+    double force = 0;  // on the body: it is side a of contacts with a plane
     for (const bem::Vec3& f : simulation.contact_forces()) force += f.z();
     impulse += dt * (force + scene.gravity.z() * body.frame().mass());
     std::printf("%.3f,%.6g,%.6g\n", simulation.time(), force, body.frame().translation().z());

@@ -4,7 +4,7 @@
 //   pluck_beam           prints CSV: time [s], deflection of the tip [m]
 #include "dynamics/body_output.hpp"
 #include "mesh/shapes.hpp"
-#include "model/precompute.hpp"
+#include "model/defaults.hpp"
 #include "simulation/memory_source.hpp"
 #include "simulation/simulation.hpp"
 
@@ -13,13 +13,15 @@
 
 int main() {
   const double length = 0.5, thickness = 0.05, dt = 5e-3;  // [m], [m], [s]
-  const bem::Material rubber{"rubber", 1000, 1e5, 0.3, {}};
+  bem::Material rubber;
+  rubber.density = 1000;       // [kg/m^3]
+  rubber.shear_modulus = 1e5;  // [Pa]
+  rubber.poisson_ratio = 0.3;
 
   const bem::TriangleMesh mesh = bem::box(bem::Vec3(length, thickness, thickness), {12, 2, 2});
-  const bem::BodyGeometry geometry =
-      bem::make_geometry(bem::make_surface(mesh, "beam"), rubber.density);
+  const bem::DefaultBody beam_body = bem::default_body(mesh, rubber, dt);
   bem::MemorySource source;
-  source.add("beam", bem::precompute(geometry, bem::default_options(geometry, rubber, dt)));
+  source.add("beam", bem::precompute(beam_body.geometry, beam_body.options));
 
   // selections are in the coordinates of the mesh, whose origin is its centre
   const auto end = [&](double sign) {
@@ -50,7 +52,7 @@ int main() {
   double before = 0, first = 0, last = 0;  // crossings of zero, upwards
   int crossings = 0;
   std::printf("t,deflection\n");
-  while (simulation.time() < 3) {
+  while (simulation.time() < 5) {
     simulation.step();
     const double t = simulation.time();
     const double now =

@@ -6,7 +6,7 @@
 
 namespace bem {
 
-/// A contact of the current step between surfaces; surface b of an obstacle has no body.
+/// A contact of the current step between surfaces; the surface of an obstacle has no body.
 struct ContactPair {
   Contact contact;
   int body_a = -1, body_b = -1;    ///< -1: an obstacle

@@ -81,7 +81,8 @@ class RigidPart {
   }
 
  private:
-  DenseMatrix<T> forces_, response_, inverse_;
+  DenseMatrix<T> forces_, response_;
+  Eigen::Matrix<T, 6, 6> inverse_;
 };
 
 /// F_0 of the component whose matrices come next.

@@ -59,19 +59,6 @@ CodecOptions codec_of_body(const BodyGeometry& geometry, SpatialMethod method, C
   return codec;
 }
 
-PrecomputeOptions default_options(const BodyGeometry& geometry, const Material& material,
-                                  double dt) {
-  PrecomputeOptions o;
-  Discretisation& d = o.discretisation;
-  d.material = material;
-  d.method = SpatialMethod::galerkin;
-  d.dt = dt;
-  d.history_length = default_history_length(d.scheme, traversal_steps(geometry, material, dt));
-  o.codec = CodecOptions(codec_named("lowrank"));
-  o.measure_growth = false;
-  return o;
-}
-
 BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
                      const Progress& progress) {
   BodyModel model;

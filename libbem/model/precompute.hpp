@@ -7,6 +7,7 @@
 
 namespace bem {
 
+/// The defaults here are the plainest matrices, not those of bemprecomp: see model/defaults.hpp.
 struct PrecomputeOptions {
   /// rigid: nothing below but the material counts; quasistatic: no history, a multistep method,
   /// quasistatic_time_step(), dense inverse.
@@ -19,12 +20,6 @@ struct PrecomputeOptions {
   double window = 0;              ///< 0: the weakest that keeps the measured growth at or below 1
   bool measure_growth = true;
 };
-
-/// The options that bemprecomp takes if none are given: the Galerkin method, radau2, codec
-/// "lowrank", a history that is as long as waves need, no window and no measurement of growth. `dt`
-/// [s] > 0.
-PrecomputeOptions default_options(const BodyGeometry& geometry, const Material& material,
-                                  double dt);
 
 /// The codec with the tolerance that a body needs. Errors of a codec are relative to a whole
 /// matrix; where a body of the Galerkin method is thin, or its triangles are small beside others,

@@ -10,7 +10,7 @@
 namespace bem {
 
 /// Models and obstacles that live in memory, by the name that a scene has as path of the archive or
-/// mesh (FilePath::resolved). A name that is not there throws std::out_of_range.
+/// mesh (FilePath::resolved). A name that is not there throws ErrorCode::archive.
 class MemorySource : public ModelSource {
  public:
   void add(const std::string& name, BodyModel model);

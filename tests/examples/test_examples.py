@@ -46,7 +46,7 @@ class Examples(unittest.TestCase):
             (folder / "rubber.json").write_text('{"name": "rubber", "density": 1000, "shear_modulus": 1e5, "poisson_ratio": 0.3}')
             run("bemshape", "icosphere", "--subdivisions", "1", "--radius", "0.1", "-o", folder / "ball.obj")
             run("bemprecomp", folder / "ball.obj", folder / "rubber.json", "--dt", "0.01", "-o", folder / "ball.bem")
-            scene = {"time_step": 0.01, "duration": 0.5, "gravity": [0, -9.81, 0],
+            scene = {"version": 1, "time_step": 0.01, "duration": 0.5, "gravity": [0, -9.81, 0],
                      "bodies": [{"name": "ball", "archive": "ball.bem", "velocity": [1, 0, 0]}]}
             (folder / "scene.json").write_text(json.dumps(scene))
             done = run("play_scene", folder / "scene.json")

@@ -7,6 +7,7 @@
 #include "common/file_roles.hpp"
 #include "kernels/scheme.hpp"
 #include "mesh/describe.hpp"
+#include "model/defaults.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -163,12 +164,8 @@ double parse_window(const std::string& text) {
   refuse("--window is auto or a number q with 0 < q <= 1, not \"" + text + "\"");
 }
 
-/// The tractions of the Galerkin method are wrong by much where those of a held face reach over its
-/// edge; collocation remains the paper's.
 std::optional<double> parse_corner_angle(const std::string& text, SpatialMethod method) {
-  constexpr double kGalerkin = 40;
-  if (text == "auto")
-    return method == SpatialMethod::galerkin ? std::optional(kGalerkin) : std::nullopt;
+  if (text == "auto") return default_corner_angle(method);
   if (text == "none") return std::nullopt;
   const std::optional<double> degrees = number_of(text);
   if (degrees && *degrees > 0 && *degrees < 180) return degrees;

@@ -9,6 +9,7 @@
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/solids.hpp"
+#include "model/defaults.hpp"
 #include "model/model_assembly.hpp"
 #include "scene/material_json.hpp"
 #include "scene/selection.hpp"
@@ -32,11 +33,9 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Around a cavity the equations of the Galerkin method hold for any rigid motion of its surface:
-/// such bodies are left to collocation.
 void settle_method(const Surface& surface, Options& o, std::vector<std::string>& warnings) {
   if (o.model == ModelKind::rigid || o.method != SpatialMethod::galerkin ||
-      surface.components.size() == 1)
+      default_method(surface) == SpatialMethod::galerkin)
     return;
   if (o.method_given)
     throw Error(ErrorCode::invalid_input,
@@ -71,12 +70,9 @@ std::vector<int> read_loaded_nodes(const std::string& path, const BodyGeometry& 
 }
 
 void plan_storage(const Options& o, Plan& plan) {
-  constexpr std::size_t kMostDense = 8000;  // nodes
   PrecomputeOptions& p = plan.options;
   p.codec = o.codec;
-  const bool large = plan.geometry.nodes.vertices.size() > kMostDense &&
-                     o.model == ModelKind::dynamic;  // others need the inverse
-  p.inverse = o.inverse.value_or(large ? InverseKind::iterative : InverseKind::dense);
+  p.inverse = o.inverse.value_or(default_inverse(plan.geometry, o.model));
   if (o.loads == "none") {
     p.loads = Loads::none;
   } else if (o.loads != "all") {

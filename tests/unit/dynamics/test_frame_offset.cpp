@@ -75,7 +75,7 @@ TEST_CASE("a critical leak is a critically damped oscillator") {
 }
 
 TEST_CASE("under a leak a lasting difference ends at difference over stiffness") {
-  for (const std::string& scheme : kSchemes) {
+  for (const std::string scheme : kSchemes) {
     INFO(scheme);
     FrameOffset offset(Scheme::parse(scheme), 0.05);
     offset.set_leak({5, 4});
@@ -86,7 +86,7 @@ TEST_CASE("under a leak a lasting difference ends at difference over stiffness")
 }
 
 TEST_CASE("gain is the derivative of the offsets by the differences") {
-  for (const std::string& scheme : kSchemes)
+  for (const std::string scheme : kSchemes)
     for (const FrameOffset::Leak& leak : {FrameOffset::Leak{}, FrameOffset::Leak{3, 7}}) {
       FrameOffset offset(Scheme::parse(scheme), 0.1);
       offset.set_leak(leak);
@@ -104,7 +104,7 @@ TEST_CASE("gain is the derivative of the offsets by the differences") {
 }
 
 TEST_CASE("offsets of two motions add up to that of their sum") {
-  for (const std::string& scheme : kSchemes) {
+  for (const std::string scheme : kSchemes) {
     INFO(scheme);
     FrameOffset first(Scheme::parse(scheme), 0.1), second = first, both = first;
     for (FrameOffset* offset : {&first, &second, &both}) offset->set_leak({0.5, 2});

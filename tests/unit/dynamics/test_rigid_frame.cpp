@@ -71,7 +71,7 @@ Mat3 tumbled(const std::string& scheme, int steps) {
 
 TEST_CASE("free fall is exact, in a moving and in a stationary frame") {
   const InitialMotion m = thrown();
-  for (const std::string& scheme : kSchemes)
+  for (const std::string scheme : kSchemes)
     for (bool stationary : {false, true}) {
       INFO(scheme << (stationary ? " stationary" : ""));
       const double dt = 0.01;
@@ -88,7 +88,7 @@ TEST_CASE("free fall is exact, in a moving and in a stationary frame") {
 
 TEST_CASE("a turn about a principal axis is exact") {
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(mass_of_body().inertia);
-  for (const std::string& scheme : kSchemes) {
+  for (const std::string scheme : kSchemes) {
     INFO(scheme);
     InitialMotion m = thrown();
     m.angular_velocity = 3 * (m.rotation * axes.eigenvectors().col(1));
@@ -145,7 +145,7 @@ TEST_CASE("velocities are the differences of places, angular momenta those of ro
 
 TEST_CASE("every step changes the momenta by the impulses of its loads") {
   std::mt19937_64 generator(5);
-  for (const std::string& scheme : kSchemes)
+  for (const std::string scheme : kSchemes)
     for (bool stationary : {false, true}) {
       INFO(scheme << (stationary ? " stationary" : ""));
       RigidFrame frame = make_frame(scheme, 0.01, thrown(), stationary);
@@ -169,7 +169,7 @@ TEST_CASE("every step changes the momenta by the impulses of its loads") {
 }
 
 TEST_CASE("an impulse is a jump of the velocities") {
-  for (const std::string& scheme : kSchemes) {
+  for (const std::string scheme : kSchemes) {
     INFO(scheme);
     InitialMotion m = thrown();
     m.gravity.setZero();
@@ -188,7 +188,7 @@ TEST_CASE("an impulse is a jump of the velocities") {
 }
 
 TEST_CASE("position_by_acceleration is the derivative of the places by the forces") {
-  for (const std::string& scheme : kSchemes) {
+  for (const std::string scheme : kSchemes) {
     RigidFrame frame = make_frame(scheme, 0.01, thrown());
     const FrameLoads none = constant_loads(scheme, Vec3::Zero(), Vec3::Zero());
     frame.advance(frame.stages(none));

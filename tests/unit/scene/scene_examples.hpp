@@ -16,7 +16,7 @@ inline const std::string& full_scene() {
     { "name": "bunny", "archive": "bunny.bem",
       "position": [0, 0.3, 0], "rotation": {"axis": [0, 2, 0], "angle_deg": 30},
       "velocity": [1.5, 0, 0], "angular_velocity": [0, 0, 4],
-      "frame": "moving",
+      "frame": "moving", "correction": "least_squares", "centrifugal": false,
       "gravity": true,
       "friction": 0.4,
       "fixed":   [ {"vertices": [0, 1, 2]}, {"box": {"min": [0,0,0], "max": [0.01,1,1]}} ],
@@ -31,10 +31,10 @@ inline const std::string& full_scene() {
     { "name": "left", "archive": "/archives/rod.bem", "frame": "static", "gravity": false },
     { "name": "right", "archive": "../rod.bem" } ],
   "obstacles": [ {"name": "floor", "plane": {"point": [0,1,0], "normal": [0,3,0]}, "friction": 0.4},
-                 {"name": "bowl", "mesh": "bowl.obj", "position": [0,0,9], "friction": 0.3, "motion": []} ],
+                 {"name": "bowl", "mesh": "bowl.obj", "scale": [1,2,3], "position": [0,0,9], "rotation": {"axis": [0,0,1], "angle_deg": 90}, "friction": 0.3, "motion": []} ],
   "joints": [ {"type": "point", "a": {"body": "left", "point": [0.1,0,0]}, "b": {"body": "right", "point": [0.2,0,0]}},
               {"type": "weld", "a": {"body": "left"}, "b": {"body": "right"}, "tolerance": 1e-3} ],
-  "contact": {"enabled": true, "self": false, "tolerance": 1e-5, "friction_combine": "average"},
+  "contact": {"enabled": true, "self": false, "tolerance": 1e-5, "friction_combine": "average", "solver": "nsgs"},
   "output": {"formats": ["hdf5", "obj"], "every": 3, "fields": ["positions", "tractions"]} })json";
   return text;
 }

@@ -26,6 +26,9 @@ TEST_CASE("a scene that uses every key is read completely: the world") {
   const auto& bowl = std::get<MeshObstacle>(s.obstacles[1].shape);
   REQUIRE(bowl.mesh.resolved == "dir/bowl.obj");
   REQUIRE(bowl.position == Vec3(0, 0, 9));
+  REQUIRE(bowl.scale == Vec3(1, 2, 3));
+  REQUIRE(bowl.rotation.axis == Vec3(0, 0, 1));
+  REQUIRE(bowl.rotation.angle == Approx(kPi / 2));
   REQUIRE(bowl.motion.empty());
   REQUIRE(where(s.obstacles[1].location) == "dir/s.json:23:18: /obstacles/1");
 
@@ -42,6 +45,7 @@ TEST_CASE("a scene that uses every key is read completely: the world") {
   REQUIRE_FALSE(s.contact.self);
   REQUIRE(s.contact.tolerance == 1e-5);
   REQUIRE(s.contact.friction_combine == FrictionCombine::average);
+  REQUIRE(s.contact.solver == FrictionMethod::nsgs);
   REQUIRE(s.output.formats ==
           std::vector<const OutputFormat*>{find_output_format("hdf5"), find_output_format("obj")});
   REQUIRE(s.output.every == 3);

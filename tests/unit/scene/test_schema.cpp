@@ -84,6 +84,20 @@ TEST_CASE("the schema accepts what the reader accepts: the examples") {
   }
 }
 
+TEST_CASE("the full scene uses every key of the schema") {
+  std::set<std::string> used, known;
+  for (const Pointer& pointer : all_pointers(Json::parse(full_scene())))
+    if (!pointer.empty()) used.insert(pointer.back());
+  const Json rules = Json::parse(scene_schema());
+  for (const Pointer& pointer : all_pointers(rules))
+    if (!pointer.empty() && pointer.back() == "properties")
+      for (const auto& property : rules.at(pointer).items()) known.insert(property.key());
+  for (const std::string& key : known) {
+    INFO(key);
+    CHECK(used.count(key) == 1);
+  }
+}
+
 TEST_CASE("every object has the same keys in the reader and in the schema") {
   const MiniSchema rules = schema();
   const Json full = Json::parse(full_scene());
