@@ -91,16 +91,16 @@ class SphereSource : public bem::ModelSource {
   bem::TractionData tractions(const bem::FilePath&, const std::vector<int>& nodes) override {
     return bem::extract_tractions(*model_, nodes);
   }
-  const bem::ObstacleSurface& obstacle(const bem::MeshObstacle&) override { return none_; }
   const bem::BodyModel& model() const { return *model_; }
 
  private:
+  bem::TriangleMesh obstacle_mesh(const bem::FilePath&) override { return {}; }
+
   static std::map<std::string, std::shared_ptr<const bem::BodyModel>>& models() {
     static std::map<std::string, std::shared_ptr<const bem::BodyModel>> all;
     return all;
   }
   std::shared_ptr<const bem::BodyModel> model_;
-  bem::ObstacleSurface none_;
 };
 
 /// A free sphere that a short pressure has set in motion; no load acts while it is stepped.

@@ -28,4 +28,14 @@ std::string printable(const std::string& text, std::size_t max_bytes = 200);
 /// printable(text) in double quotes, shortened to what a message can hold.
 std::string in_quotes(const std::string& text);
 
+/// Calls `read` and adds the place to the message of an Error that it throws.
+template <class Read>
+auto at_place(const Location& location, const Read& read) {
+  try {
+    return read();
+  } catch (const Error& e) {
+    throw Error(e.code(), where(location) + ": " + e.what());
+  }
+}
+
 }  // namespace bem

@@ -22,13 +22,12 @@ class ArchiveSource : public ModelSource {
 
   std::shared_ptr<const BodyModel> model(const FilePath& path) override;
   TractionData tractions(const FilePath& path, const std::vector<int>& nodes) override;
-  /// Read once for every mesh and scale. Throws ErrorCode::invalid_input.
-  const ObstacleSurface& obstacle(const MeshObstacle& obstacle) override;
 
  private:
+  TriangleMesh obstacle_mesh(const FilePath& mesh) override;
+
   Progress progress_;
   std::map<std::string, std::unique_ptr<Archive>> archives_;  ///< by resolved path
-  std::map<std::pair<std::string, std::array<double, 3>>, ObstacleSurface> obstacles_;
 };
 
 }  // namespace bem

@@ -7,11 +7,11 @@ namespace bem {
 namespace {
 
 template <class Map>
-const auto& known(const Map& map, const FilePath& path) {
-  const auto found = map.find(path.resolved);
+const auto& known(const Map& map, const std::string& name) {
+  const auto found = map.find(name);
   if (found == map.end())
-    throw Error(ErrorCode::archive, where(path.location) + ": there is no \"" + path.resolved +
-                                        "\" in memory; add() it before the simulation is made");
+    throw Error(ErrorCode::archive,
+                "there is no \"" + name + "\" in memory; add() it before the simulation is made");
   return found->second;
 }
 
@@ -26,21 +26,15 @@ void MemorySource::add_obstacle(const std::string& name, TriangleMesh mesh) {
 }
 
 std::shared_ptr<const BodyModel> MemorySource::model(const FilePath& archive) {
-  return known(models_, archive);
+  return at_place(archive.location, [&] { return known(models_, archive.resolved); });
 }
 
 TractionData MemorySource::tractions(const FilePath& archive, const std::vector<int>& nodes) {
-  return extract_tractions(*known(models_, archive), nodes);
+  return extract_tractions(*model(archive), nodes);
 }
 
-const ObstacleSurface& MemorySource::obstacle(const MeshObstacle& obstacle) {
-  const std::string& name = obstacle.mesh.resolved;
-  const Vec3& scale = obstacle.scale;
-  const auto [entry, fresh] =
-      obstacles_.try_emplace({name, {scale[0], scale[1], scale[2]}}, ObstacleSurface());
-  if (fresh)
-    entry->second = make_obstacle_surface(scaled(known(meshes_, obstacle.mesh), scale), name);
-  return entry->second;
+TriangleMesh MemorySource::obstacle_mesh(const FilePath& mesh) {
+  return known(meshes_, mesh.resolved);
 }
 
 }  // namespace bem

@@ -2,7 +2,6 @@
 
 #include "simulation/scene_loader.hpp"
 
-#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,13 +17,12 @@ class MemorySource : public ModelSource {
 
   std::shared_ptr<const BodyModel> model(const FilePath& archive) override;
   TractionData tractions(const FilePath& archive, const std::vector<int>& nodes) override;
-  /// Throws ErrorCode::invalid_input if the mesh is no surface.
-  const ObstacleSurface& obstacle(const MeshObstacle& obstacle) override;
 
  private:
+  TriangleMesh obstacle_mesh(const FilePath& mesh) override;
+
   std::map<std::string, std::shared_ptr<const BodyModel>> models_;
   std::map<std::string, TriangleMesh> meshes_;
-  std::map<std::pair<std::string, std::array<double, 3>>, ObstacleSurface> obstacles_;
 };
 
 }  // namespace bem

@@ -181,6 +181,21 @@ void SceneLoader::make_bodies() {
 
 }  // namespace
 
+const ObstacleSurface& ModelSource::obstacle(const MeshObstacle& obstacle) {
+  const FilePath& mesh = obstacle.mesh;
+  const Vec3& scale = obstacle.scale;
+  const std::pair key(mesh.resolved, std::array<double, 3>{scale[0], scale[1], scale[2]});
+  const auto known = obstacles_.find(key);
+  if (known != obstacles_.end()) return known->second;
+  return obstacles_
+      .emplace(key, at_place(mesh.location,
+                             [&] {
+                               return make_obstacle_surface(scaled(obstacle_mesh(mesh), scale),
+                                                            mesh.resolved);
+                             }))
+      .first->second;
+}
+
 void check_archive(const Scene& scene, const BodySpec& body, ModelKind kind,
                    const Discretisation& discretisation) {
   if (kind == ModelKind::dynamic) check_time_step(scene, body, discretisation.dt);

@@ -3,6 +3,8 @@
 #include "constraints/joint_plan.hpp"
 #include "mesh/obstacle_surface.hpp"
 
+#include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,8 +19,15 @@ class ModelSource {
   virtual std::shared_ptr<const BodyModel> model(const FilePath& archive) = 0;
   /// Traction columns of some nodes, ascending.
   virtual TractionData tractions(const FilePath& archive, const std::vector<int>& nodes) = 0;
-  /// The surface of an obstacle in its mesh's coordinates times its scale.
-  virtual const ObstacleSurface& obstacle(const MeshObstacle& obstacle) = 0;
+  /// The surface of an obstacle in its mesh's coordinates times its scale, made once for every mesh
+  /// and scale. Throws ErrorCode::invalid_input if the mesh is no surface.
+  const ObstacleSurface& obstacle(const MeshObstacle& obstacle);
+
+ private:
+  /// The mesh of an obstacle as it is in its file.
+  virtual TriangleMesh obstacle_mesh(const FilePath& mesh) = 0;
+
+  std::map<std::pair<std::string, std::array<double, 3>>, ObstacleSurface> obstacles_;
 };
 
 /// The bodies of a scene at its start, and what connects them.

@@ -21,11 +21,11 @@ class ArchiveModel : public bem::ModelSource {
   bem::TractionData tractions(const bem::FilePath&, const std::vector<int>& nodes) override {
     return archive_.load_tractions(nodes);
   }
-  const bem::ObstacleSurface& obstacle(const bem::MeshObstacle&) override { return none_; }
 
  private:
+  bem::TriangleMesh obstacle_mesh(const bem::FilePath&) override { return {}; }
+
   const bem::Archive& archive_;
-  bem::ObstacleSurface none_;
 };
 
 void simulate(const bem::Archive& archive) {

@@ -36,12 +36,6 @@ class SceneSource : public MemorySource {
   TractionData tractions(const FilePath& archive, const std::vector<int>& nodes) override {
     return extract_tractions(*model(archive), nodes);
   }
-  const ObstacleSurface& obstacle(const MeshObstacle& obstacle) override {
-    const std::string name = std::filesystem::path(obstacle.mesh.resolved).stem();
-    const auto [entry, fresh] = obstacles_.try_emplace(name, ObstacleSurface());
-    if (fresh) entry->second = make_obstacle_surface(obstacle_mesh(name), name);
-    return entry->second;
-  }
 
  private:
   static TriangleMesh mesh(const std::string& name) {
@@ -57,7 +51,8 @@ class SceneSource : public MemorySource {
     REQUIRE(name == "fish");
     return fish(0.3, 20);  // 322 vertices: thin enough fins to be hard
   }
-  static TriangleMesh obstacle_mesh(const std::string& name) {
+  TriangleMesh obstacle_mesh(const FilePath& mesh) override {
+    const std::string name = std::filesystem::path(mesh.resolved).stem();
     if (name == "bowl") return bowl(0.5, 0.05, 48);
     if (name == "plate") return box(Vec3(0.8, 0.02, 0.6), {8, 1, 6});
     REQUIRE(name == "thin-plate");
@@ -76,7 +71,6 @@ class SceneSource : public MemorySource {
 
   double time_step_;
   std::map<std::string, std::shared_ptr<const BodyModel>> models_;
-  std::map<std::string, ObstacleSurface> obstacles_;
 };
 
 Scene shipped_scene(const std::string& name) {

@@ -7,6 +7,7 @@
 #include "mesh/describe.hpp"
 #include "scene/motion.hpp"
 #include "scene/selection.hpp"
+#include "simulation/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
