@@ -11,7 +11,7 @@ enum class ErrorCode {
   usage = 2,          ///< wrong command line
   invalid_input = 3,  ///< mesh or JSON that cannot be used
   archive = 4,        ///< archive missing, damaged or not fitting the scene
-  numerical = 5,      ///< the simulation produced a non-finite number
+  numerical = 5,      ///< a number is not finite, or a matrix or step cannot be solved
   resources = 6,      ///< memory, disk or permission
 };
 

@@ -68,7 +68,7 @@ BodySpec read_body(const JsonValue& value) {
   if (const auto correction = reader.optional("correction")) {
     body.correction = correction->choice<Correction>();
     if (body.correction == Correction::least_squares && body.is_stationary())
-      throw correction->unexpected("\"projection\", because a static frame has no other");
+      throw correction->unexpected("\"projection\", because a stationary frame has no other");
   }
   if (const auto gravity = reader.optional("gravity")) body.gravity = gravity->boolean();
   if (const auto stretch = reader.optional("centrifugal")) body.centrifugal = stretch->boolean();

@@ -134,7 +134,7 @@ void add_warnings(Plan& plan) {
     if (body.spec->frame == FrameMotion::stationary && body.fixed + body.handled == 0)
       plan.warnings.push_back(where(body.spec->location) + ": nothing holds the body " +
                               in_quotes(body.spec->name) +
-                              ", but its static frame is made for small displacements; a moving "
+                              ", but its stationary frame is made for small displacements; a moving "
                               "frame follows it");
   }
 }
@@ -196,11 +196,11 @@ void print_body(std::ostream& out, const PlannedBody& body, const Vec3& gravity)
   if (body.archive->kind() == ModelKind::rigid)
     out << " (rigid)\n";
   else if (d.history_length == 0)
-    out << " (static, frame by " << d.scheme.name() << ")\n";
+    out << " (static model, frame by " << d.scheme.name() << ")\n";
   else
     out << " (" << d.scheme.name() << ", history of "
         << count_text(static_cast<std::size_t>(d.history_length), "step") << ")\n";
-  out << "  " << (spec.frame == FrameMotion::moving ? "moving" : "static") << " frame";
+  out << "  " << (spec.frame == FrameMotion::moving ? "moving" : "stationary") << " frame";
   if (spec.correction == Correction::least_squares) out << ", corrected by least squares";
   if (spec.gravity && !gravity.isZero(0)) out << ", gravity " << vector_text(gravity, "m/s^2");
   if (!spec.velocity.isZero(0)) out << ", velocity " << vector_text(spec.velocity, "m/s");
