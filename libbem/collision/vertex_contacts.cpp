@@ -57,16 +57,17 @@ class VertexContacts {
     propose_near();
     for (const Proposal& p : proposals_)
       if (is_needed(p) && faces(a_, vertex_, p.time, p.normal)) accepted_.push_back(p);
+    if (accepted_.empty() && entered_) accept_inside();
     for (const Proposal& p : accepted_) contacts.push_back(contact(p));
   }
 
  private:
   /// Triangles the vertex touches at the start or goes through later, the earliest first.
   void propose_entered() {
-    double nearest = 0;
-    const bool inside = starts_inside(nearest);
+    const Nearest near = nearest_at(0);
+    const bool inside = near.inside && near.distance <= limits_.recovery_depth;
     for (const Candidate& c : candidates_) {
-      if (touches_at_start(c.start, inside, nearest)) {
+      if (touches_at_start(c.start, inside, near.distance)) {
         propose_hit(c, 0, c.start);
       } else {
         propose_crossed(c);
@@ -78,25 +79,43 @@ class VertexContacts {
     });
   }
 
-  /// Is the vertex inside at the start, judged by the nearest triangle; and how near is that?
-  bool starts_inside(double& nearest) const {
-    const Candidate* best = nullptr;
-    nearest = std::numeric_limits<double>::infinity();
+  /// What the vertex is nearest to at the start (t = 0) or at the end (t = 1), and the outward
+  /// normal there; none without candidates.
+  struct Nearest {
+    const Candidate* candidate = nullptr;
+    double distance = std::numeric_limits<double>::infinity();
+    Vec3 normal = Vec3::Zero();
+    bool inside = false;  ///< is the vertex on the inner side?
+  };
+  Nearest nearest_at(int t) const {
+    const Vec3& place = t == 0 ? start_ : end_;
+    Nearest best;
     for (const Candidate& c : candidates_) {
-      const double distance = (start_ - c.start.closest.point).norm();
-      if (distance < nearest) {
-        nearest = distance;
-        best = &c;
-      }
+      const double distance = (place - (t == 0 ? c.start : c.end).closest.point).norm();
+      if (distance < best.distance) best = {&c, distance, Vec3::Zero(), false};
     }
-    if (!best || nearest > limits_.recovery_depth) return false;
-    const NearestPoint& closest = best->start.closest;
-    Vec3 normal = best->start.normal;
-    if (closest.feature == NearestPoint::Feature::edge)
-      normal = edge_normal(b_, b_.topology->triangle_edges[best->triangle][closest.index], 0);
-    if (closest.feature == NearestPoint::Feature::corner)
-      normal = vertex_normal(b_, b_.topology->triangles[best->triangle][closest.index], 0);
-    return normal.dot(start_ - closest.point) < 0;
+    if (!best.candidate) return best;
+    const TrianglePlace& on = t == 0 ? best.candidate->start : best.candidate->end;
+    best.normal = on.normal;
+    if (on.closest.feature == NearestPoint::Feature::edge)
+      best.normal = edge_normal(
+          b_, b_.topology->triangle_edges[best.candidate->triangle][on.closest.index], t);
+    if (on.closest.feature == NearestPoint::Feature::corner)
+      best.normal =
+          vertex_normal(b_, b_.topology->triangles[best.candidate->triangle][on.closest.index], t);
+    best.inside = best.normal.dot(place - on.closest.point) < 0;
+    return best;
+  }
+
+  /// A vertex that has entered the surface and ends in it may end above the planes of all triangles
+  /// that it could be held by, because they turn in the step: then it is held by what is nearest.
+  void accept_inside() {
+    const Nearest near = nearest_at(1);
+    if (!near.inside || near.distance <= limits_.tolerance) return;
+    const NearestPoint& on = near.candidate->end.closest;
+    const Vec3 normal = near.normal.normalized();
+    accepted_.push_back(
+        {1, normal, near.candidate->triangle, on.weights, on.point, normal.dot(end_ - on.point)});
   }
 
   bool touches_at_start(const TrianglePlace& start, bool inside, double nearest) const {
@@ -125,6 +144,7 @@ class VertexContacts {
       if (!crossings.at[i].falling) continue;
       const TrianglePlace hit = place_at_triangle(a_.vertex(vertex_, time), b_, c.triangle, time);
       if (hit.overhang > inclusive_) continue;
+      entered_ = true;
       propose_hit(c, time, hit);
       return;
     }
@@ -259,6 +279,7 @@ class VertexContacts {
   double inclusive_;  ///< a foot this far outside a triangle is still on it [m]
   double rim_;        ///< a foot this far inside a triangle is beside its edge [m]
   Vec3 start_, end_;
+  bool entered_ = false;  ///< the vertex goes through a triangle in the step
   std::vector<Candidate> candidates_;
   std::vector<Proposal> proposals_, accepted_;
 };

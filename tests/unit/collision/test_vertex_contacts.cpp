@@ -46,6 +46,17 @@ TEST_CASE("a vertex that falls is held by the triangle under it") {
   CHECK(tip_contacts(kSlab, {0.1, 0.13, 0.05}, {0.1, 0.13, 0.07}).empty());
 }
 
+TEST_CASE("a vertex that enters backwards and ends inside is held by what is nearest") {
+  // The needle opens upwards, so that no side of it faces the underside of the slab.
+  const auto contacts = tip_contacts(kSlab, {0.1, 0.13, -0.07}, {0.13, 0.1, -0.03});
+  REQUIRE(contacts.size() == 1);
+  CHECK((contacts[0].normal + Vec3::UnitZ()).norm() < 1e-12);
+  CHECK((contacts[0].point - Vec3(0.13, 0.1, -0.05)).norm() < 1e-12);
+  CHECK(contacts[0].gap_end == Approx(-0.02));
+  // It has left again.
+  CHECK(tip_contacts(kSlab, {0.1, 0.13, -0.07}, {0.1, 0.13, 0.07}).empty());
+}
+
 TEST_CASE("a vertex deeper than the recovery depth is left alone, others are pushed out") {
   CHECK(tip_contacts(kSlab, {0.1, 0.13, 0.048}, {0.1, 0.13, 0.048}).empty());
   for (const double depth : {1e-7, 1e-6, 1e-5, 9e-4}) {
