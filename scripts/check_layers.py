@@ -14,17 +14,19 @@ PLAN = {
     "mesh": "base files",
     "friction": "base algebra",
     "output": "base files mesh",
-    "scene": "base files mesh friction output",
     "kernels": "base algebra",
     "quadrature": "base",
     "assembly": "base algebra mesh kernels quadrature",
     "compress": "base files algebra mesh",
     "model": "base algebra mesh kernels assembly compress",
+    "settings": "base mesh kernels assembly compress model",
+    "scene": "base files mesh friction output settings",
     "archive": "base files mesh kernels compress model",
+    "preparation": "base files mesh kernels assembly compress model settings scene archive",
     "collision": "base mesh",
     "dynamics": "base algebra mesh scene kernels assembly compress model",
     "constraints": "base algebra mesh scene collision friction dynamics",
-    "simulation": "base mesh scene model archive dynamics constraints",
+    "simulation": "base files mesh scene model settings archive preparation dynamics constraints",
 }
 ROOT = pathlib.Path(__file__).resolve().parent.parent / "libbem"
 

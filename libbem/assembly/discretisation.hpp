@@ -1,22 +1,10 @@
 #pragma once
 
-#include "base/choices.hpp"
+#include "assembly/spatial_method.hpp"
 #include "base/material.hpp"
 #include "kernels/scheme.hpp"
 
 namespace bem {
-
-/// Discretisation in space.
-enum class SpatialMethod {
-  collocation,  ///< linear displacements, at the vertices: the paper's
-  galerkin      ///< hypersingular equation, displacements with reconstructed edges
-};
-
-template <>
-struct Choices<SpatialMethod> {
-  static constexpr std::array<Choice<SpatialMethod>, 2> all = {
-      {{SpatialMethod::galerkin, "galerkin"}, {SpatialMethod::collocation, "collocation"}}};
-};
 
 /// What determines the matrices of a body besides its mesh.
 struct Discretisation {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/choices.hpp"
 #include "compress/block_partition.hpp"
+#include "compress/codec_options.hpp"
 #include "compress/family_builder.hpp"
 #include "compress/family_storage.hpp"
 
@@ -10,30 +10,6 @@
 #include <vector>
 
 namespace bem {
-
-/// Number format of uncompressed matrix entries.
-enum class Precision { float32, float64 };
-
-template <>
-struct Choices<Precision> {
-  static constexpr std::array<Choice<Precision>, 2> all = {
-      {{Precision::float32, "float32"}, {Precision::float64, "float64"}}};
-};
-
-class Codec;
-
-/// A codec, and how much of the matrices it may lose.
-struct CodecOptions {
-  CodecOptions();
-  explicit CodecOptions(const Codec& c, double t = 1e-4, double r = 0)
-      : codec(&c), tolerance(t), ratio(r) {}
-
-  const Codec* codec;  ///< "none" with single precision by default
-  /// Error of the matrices aimed at, relative to their Frobenius norm (of all lags together).
-  double tolerance = 1e-4;
-  /// Codec haar: entries before / coefficients kept; 0: as many as the tolerance asks for.
-  double ratio = 0;
-};
 
 /// Rows of the matrices of a family by which a builder decides how to store them, and what it may
 /// lose.
@@ -116,8 +92,8 @@ const Codec* find_codec(const std::string& name, Precision precision = Precision
 const Codec& codec_named(const std::string& name, Precision precision = Precision::float32);
 /// "none", "haar" ...
 std::vector<std::string> codec_names();
-/// "--codec haar or --codec lowrank": those with a property.
-std::string codec_options_with(bool (*property)(const Codec&));
+/// Those of codec_names() with a property.
+std::vector<std::string> codecs_with(bool (*property)(const Codec&));
 inline bool is_lossy(const Codec& codec) {
   return !codec.is_lossless();
 }

@@ -63,11 +63,12 @@ std::vector<std::string> codec_names() {
   return names;
 }
 
-std::string codec_options_with(bool (*property)(const Codec&)) {
-  std::vector<std::string> options;
-  for (const std::string& name : codec_names())
-    if (property(codec_named(name))) options.push_back("--codec " + name);
-  return list_text(options);
+std::vector<std::string> codecs_with(bool (*property)(const Codec&)) {
+  std::vector<std::string> names = codec_names();
+  names.erase(std::remove_if(names.begin(), names.end(),
+                             [&](const std::string& name) { return !property(codec_named(name)); }),
+              names.end());
+  return names;
 }
 
 double spectral_norm_of_errors(double frobenius, Eigen::Index n) {

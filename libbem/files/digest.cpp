@@ -33,6 +33,17 @@ void read_exactly(int file, char* out, std::uint64_t size, std::uint64_t offset,
   if (got < size) throw Error(ErrorCode::archive, path + ": the archive cannot be read to its end");
 }
 
+std::string hexadecimal(XXH128_hash_t hash) {
+  XXH128_canonical_t digest;
+  XXH128_canonicalFromHash(&digest, hash);
+  std::string hex;
+  for (unsigned char byte : digest.digest) {
+    hex += "0123456789abcdef"[byte >> 4];
+    hex += "0123456789abcdef"[byte & 15];
+  }
+  return hex;
+}
+
 }  // namespace
 
 std::string tree_digest(int file, std::uint64_t first, std::uint64_t length,
@@ -50,15 +61,11 @@ std::string tree_digest(int file, std::uint64_t first, std::uint64_t length,
     }
     XXH128_canonicalFromHash(&digests[b], XXH3_128bits_digest(hasher.state.get()));
   });
-  XXH128_canonical_t root;
-  XXH128_canonicalFromHash(
-      &root, XXH3_128bits(digests.data(), digests.size() * sizeof(XXH128_canonical_t)));
-  std::string hex;
-  for (unsigned char byte : root.digest) {
-    hex += "0123456789abcdef"[byte >> 4];
-    hex += "0123456789abcdef"[byte & 15];
-  }
-  return hex;
+  return hexadecimal(XXH3_128bits(digests.data(), digests.size() * sizeof(XXH128_canonical_t)));
+}
+
+std::string digest_of(std::string_view bytes) {
+  return hexadecimal(XXH3_128bits(bytes.data(), bytes.size()));
 }
 
 }  // namespace bem

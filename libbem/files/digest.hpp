@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace bem {
 
@@ -15,5 +16,8 @@ inline constexpr std::uint64_t kDigestBlock = std::uint64_t(8) << 20;
 /// if there are fewer bytes, ErrorCode::resources if they cannot be read.
 std::string tree_digest(int file, std::uint64_t first, std::uint64_t length,
                         const std::string& path);
+
+/// XXH3-128 digest of some bytes, as 32 hexadecimal digits.
+std::string digest_of(std::string_view bytes);
 
 }  // namespace bem

@@ -1,3 +1,5 @@
+#include "mesh/describe.hpp"
+#include "scene/material_json.hpp"
 #include "scene/scene_parts.hpp"
 
 namespace bem {
@@ -55,6 +57,74 @@ void read_constraints_and_loads(JsonReader& reader, BodySpec& body) {
       body.tractions.push_back(read_traction(item));
 }
 
+/// The value of a setting as the command line would have it.
+std::string setting_text(const JsonValue& value, Setting::Kind kind) {
+  using Kind = Setting::Kind;
+  if (kind == Kind::flag) return value.boolean() ? "true" : "false";
+  if (kind == Kind::text && value.kind() == JsonKind::string) return value.text();
+  if (kind == Kind::text && value.kind() != JsonKind::number)
+    throw value.unexpected("a string or a number");
+  return to_text(value.number());
+}
+
+void read_material_of(const JsonValue& value, BodySource& source) {
+  if (value.kind() == JsonKind::object) {
+    source.material = read_material(value);
+    source.material_path.location = value.location();
+    return;
+  }
+  source.material_path = read_path(value);
+  source.material =
+      at_place(value.location(), [&] { return read_material(source.material_path.resolved); });
+}
+
+PrecomputeSettings read_settings(const JsonValue& value) {
+  JsonReader reader(value, "an object of settings");
+  PrecomputeSettings settings;
+  for (const Setting& setting : precompute_settings()) {
+    if (!setting.in_scenes) {
+      reader.refuse(setting.key(), "is no setting of a body: the scene has the \"time_step\"");
+      continue;
+    }
+    const auto given = reader.optional(setting.key());
+    if (!given) continue;
+    const std::string text = setting_text(*given, setting.kind);
+    at_place_of_input(given->location(), [&] {
+      setting.set(settings, setting_name(SettingStyle::key, setting.name), text);
+    });
+  }
+  reader.finish();
+  at_place_of_input(value.location(), [&] { check_settings(settings, SettingStyle::key); });
+  if (settings.has_load_file()) settings.loads = read_path(reader.required("loads")).resolved;
+  return settings;
+}
+
+BodySource read_source(const JsonValue& mesh, JsonReader& reader) {
+  BodySource source;
+  source.mesh = read_path(mesh);
+  if (const auto scale = reader.optional("mesh_scale")) source.mesh_scale = scale->positive();
+  read_material_of(reader.required("material"), source);
+  if (const auto settings = reader.optional("precompute"))
+    source.settings = read_settings(*settings);
+  return source;
+}
+
+/// The body's archive, or the mesh and material that it is computed from, or both.
+void read_model(JsonReader& reader, BodySpec& body) {
+  reader.require_any_of({"archive", "mesh"});
+  const auto archive = reader.optional("archive"), mesh = reader.optional("mesh");
+  if (mesh) body.source = read_source(*mesh, reader);
+  if (archive) {
+    body.archive = read_path(*archive);
+    reader.refuse("precompute", "has no effect on a body whose \"archive\" is given");
+  } else {
+    body.archive.written = body.source->mesh.written;
+    body.archive.location = body.source->mesh.location;
+  }
+  for (const char* key : {"material", "mesh_scale", "precompute"})
+    if (reader.optional(key) && !mesh) reader.refuse(key, "belongs to a body with a \"mesh\"");
+}
+
 }  // namespace
 
 BodySpec read_body(const JsonValue& value) {
@@ -62,7 +132,7 @@ BodySpec read_body(const JsonValue& value) {
   BodySpec body;
   body.location = value.location();
   body.name = read_name(reader.required("name"));
-  body.archive = read_path(reader.required("archive"));
+  read_model(reader, body);
   read_placement(reader, body);
   if (const auto frame = reader.optional("frame")) body.frame = frame->choice<FrameMotion>();
   if (const auto correction = reader.optional("correction")) {

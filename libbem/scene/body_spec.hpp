@@ -1,8 +1,10 @@
 #pragma once
 
 #include "base/choices.hpp"
+#include "base/material.hpp"
 #include "base/types.hpp"
 #include "scene/location.hpp"
+#include "settings/precompute_settings.hpp"
 
 #include <optional>
 #include <string>
@@ -105,9 +107,21 @@ struct Choices<Correction> {
       {{Correction::projection, "projection"}, {Correction::least_squares, "least_squares"}}};
 };
 
+/// What a body's archive is computed from, or has to agree with.
+struct BodySource {
+  FilePath mesh;
+  double mesh_scale = 1;  ///< > 0
+  Material material;
+  FilePath material_path;       ///< of a material file; its place only, for an inline material
+  PrecomputeSettings settings;  ///< of "precompute"
+};
+
 struct BodySpec {
   std::string name;
+  /// Without a path until the archive of a body with a source is prepared
+  /// (simulation/scene_preparation.hpp).
   FilePath archive;
+  std::optional<BodySource> source;
   Vec3 position = Vec3::Zero();          ///< of the mesh's origin [m]
   AxisAngle rotation;                    ///< world = position + R * mesh coordinates
   Vec3 velocity = Vec3::Zero();          ///< of the centre of mass [m/s]

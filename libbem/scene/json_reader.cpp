@@ -118,6 +118,15 @@ std::vector<JsonValue> JsonValue::items(std::size_t min_count, const std::string
   return out;
 }
 
+std::vector<std::pair<std::string, JsonValue>> JsonValue::members(const std::string& what) const {
+  if (kind() != JsonKind::object) throw unexpected(what);
+  std::vector<std::pair<std::string, JsonValue>> out;
+  for (auto child = node().first_child; child != JsonDocument::kNone;
+       child = document_->node(child).next_sibling)
+    out.emplace_back(document_->string(document_->node(child).key), JsonValue(*document_, child));
+  return out;
+}
+
 std::size_t JsonValue::choice(const std::vector<std::string>& names) const {
   const std::string expected = "one of the strings " + join(names);
   if (kind() != JsonKind::string) throw unexpected(expected);
@@ -177,17 +186,22 @@ JsonValue JsonReader::required(const std::string& key) {
   throw object_.error("the required key \"" + key + "\" is missing");
 }
 
-std::string JsonReader::required_one_of(const std::vector<std::string>& keys) {
+void JsonReader::require_any_of(const std::vector<std::string>& keys) {
   known_.insert(known_.end(), keys.begin(), keys.end());
+  if (std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return child(key); })) return;
+  for (const std::string& key : keys) refuse_misspelt(key);
+  throw object_.error("one of the keys " + join(keys) + " is required");
+}
+
+std::string JsonReader::required_one_of(const std::vector<std::string>& keys) {
+  require_any_of(keys);
   std::string given;
   for (const std::string& key : keys) {
     if (!child(key)) continue;
     if (!given.empty()) refuse(key, "is not allowed beside \"" + given + "\"");
     given = key;
   }
-  if (!given.empty()) return given;
-  for (const std::string& key : keys) refuse_misspelt(key);
-  throw object_.error("one of the keys " + join(keys) + " is required");
+  return given;
 }
 
 void JsonReader::refuse(const std::string& key, const std::string& reason) const {

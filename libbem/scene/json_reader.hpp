@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bem {
@@ -33,6 +34,9 @@ class JsonValue {
   /// The elements of an array with at least `min_count` of them. `what` describes the array in
   /// messages: "array of bodies".
   std::vector<JsonValue> items(std::size_t min_count, const std::string& what) const;
+
+  /// The members of an object. `what` describes it in messages: "an object of settings".
+  std::vector<std::pair<std::string, JsonValue>> members(const std::string& what) const;
 
   /// Index in `names` of the string found here; a misspelt one is answered with the nearest.
   std::size_t choice(const std::vector<std::string>& names) const;
@@ -80,6 +84,9 @@ class JsonReader {
 
   /// The member `key`, if there is one.
   std::optional<JsonValue> optional(const std::string& key);
+
+  /// Throws if none of `keys` is there.
+  void require_any_of(const std::vector<std::string>& keys);
 
   /// The one of `keys` that is there. Throws if none is there, or more than one.
   std::string required_one_of(const std::vector<std::string>& keys);

@@ -38,4 +38,16 @@ auto at_place(const Location& location, const Read& read) {
   }
 }
 
+/// The same where a mistake of the input is no mistake of a command line: ErrorCode::usage becomes
+/// ErrorCode::invalid_input.
+template <class Read>
+auto at_place_of_input(const Location& location, const Read& read) {
+  try {
+    return read();
+  } catch (const Error& e) {
+    const bool usage = e.code() == ErrorCode::usage;
+    throw Error(usage ? ErrorCode::invalid_input : e.code(), where(location) + ": " + e.what());
+  }
+}
+
 }  // namespace bem

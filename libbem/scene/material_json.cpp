@@ -11,7 +11,13 @@ namespace {
 constexpr std::size_t kLongestName = 1000;
 
 Material material_from(const JsonDocument& document) {
-  JsonReader reader(JsonValue(document, 0), "a material");
+  return read_material(JsonValue(document, 0));
+}
+
+}  // namespace
+
+Material read_material(const JsonValue& object) {
+  JsonReader reader(object, "a material");
   Material material;
   material.name = reader.required("name").text();
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
@@ -32,8 +38,6 @@ Material material_from(const JsonDocument& document) {
                    "the speed of shear waves, sqrt(shear modulus / density), is out of range");
   return material;
 }
-
-}  // namespace
 
 Material read_material(const std::string& path) {
   return material_from(JsonDocument::read(path));

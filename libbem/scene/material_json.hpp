@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/material.hpp"
+#include "scene/json_reader.hpp"
 
 #include <string>
 
@@ -14,5 +15,8 @@ Material read_material(const std::string& path);
 
 /// The same from a text; `file` is the name used in messages.
 Material parse_material(const std::string& file, const std::string& text);
+
+/// The same from an object in another file.
+Material read_material(const JsonValue& object);
 
 }  // namespace bem

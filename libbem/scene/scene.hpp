@@ -97,7 +97,7 @@ struct OutputSpec {
 };
 
 struct Scene {
-  double time_step = 0;          ///< [s], > 0
+  double time_step = 0;          ///< [s], > 0; 0 until an automatic one is chosen
   double duration = 0;           ///< [s], >= 0
   Vec3 gravity = Vec3::Zero();   ///< acceleration [m/s^2]
   std::vector<BodySpec> bodies;  ///< at least one; no two names of bodies and obstacles are equal

@@ -26,12 +26,15 @@ class NamesInUse {
 };
 
 void read_timing(JsonReader& reader, Scene& scene) {
-  const JsonValue time_step = reader.required("time_step");
-  scene.time_step = time_step.positive();
-  scene.time_step_location = time_step.location();
+  scene.time_step_location = scene.location;
+  if (const auto time_step = reader.optional("time_step")) {
+    scene.time_step_location = time_step->location();
+    if (time_step->kind() != JsonKind::string || time_step->text() != "auto")
+      scene.time_step = time_step->positive();
+  }
   const JsonValue duration = reader.required("duration");
   scene.duration = duration.non_negative();
-  if (!(scene.duration / scene.time_step <= kMaxSteps))
+  if (scene.time_step > 0 && !(scene.duration / scene.time_step <= kMaxSteps))
     throw duration.error("expected at most 2147483647 time steps, found a duration of more");
 }
 

@@ -17,7 +17,36 @@ void list_names(std::string& schema, const std::string& kind,
   schema.replace(at, mark.size(), "\"enum\": [" + names + "]");
 }
 
+const char* type_of(Setting::Kind kind) {
+  switch (kind) {
+    case Setting::Kind::number:
+      return R"("number")";
+    case Setting::Kind::integer:
+      return R"("integer")";
+    case Setting::Kind::flag:
+      return R"("boolean")";
+    case Setting::Kind::text:
+      return R"(["string", "number"])";
+  }
+  return "";
+}
+
+/// Puts the settings in place of their mark.
+void list_settings(std::string& schema) {
+  const std::string mark = "\"settings\"";
+  std::string members;
+  for (const Setting& setting : precompute_settings())
+    if (setting.in_scenes)
+      members += (members.empty() ? "" : ",") + std::string("\n        \"") + setting.key() +
+                 "\": {\"description\": \"" + setting.help +
+                 "\", \"type\": " + type_of(setting.kind) + "}";
+  const std::size_t at = schema.find(mark);
+  require(at != std::string::npos, "the schema has the settings");
+  schema.replace(at, mark.size(), "{" + members + "\n      }");
+}
+
 std::string with_names(std::string schema) {
+  list_settings(schema);
   list_names(schema, "FrameMotion", choice_names<FrameMotion>());
   list_names(schema, "Correction", choice_names<Correction>());
   list_names(schema, "FrictionCombine", choice_names<FrictionCombine>());
@@ -35,11 +64,14 @@ const std::string& scene_schema() {
   "title": "Scene of bemsim, version 1",
   "description": "SI units. Angles are in degrees where the key says so. Paths are relative to the scene file.",
   "type": "object",
-  "required": ["version", "time_step", "duration", "bodies"],
+  "required": ["version", "duration", "bodies"],
   "additionalProperties": false,
   "properties": {
     "version": {"description": "Version of this format.", "const": 1},
-    "time_step": {"description": "Time step [s]; that of every archive of the scene.", "type": "number", "exclusiveMinimum": 0},
+    "time_step": {
+      "description": "Time step [s]; that of every archive of the scene. auto: that of the archives, else from the speed of waves and the edges of the meshes; default auto.",
+      "oneOf": [{"type": "number", "exclusiveMinimum": 0}, {"const": "auto"}]
+    },
     "duration": {"description": "Simulated time [s].", "type": "number", "minimum": 0},
     "gravity": {"description": "Acceleration of gravity [m/s^2]; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
     "bodies": {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/body"}},
@@ -144,9 +176,15 @@ const std::string& scene_schema() {
       ]
     },
     "body": {
-      "type": "object", "required": ["name", "archive"], "additionalProperties": false,
+      "type": "object", "required": ["name"], "additionalProperties": false,
+      "anyOf": [{"required": ["mesh", "material"]}, {"required": ["archive"], "not": {"required": ["precompute"]}}],
+      "dependentRequired": {"mesh": ["material"], "material": ["mesh"], "mesh_scale": ["mesh"], "precompute": ["mesh"]},
       "properties": {
         "name": {"$ref": "#/$defs/name"},
+        "mesh": {"description": "Closed mesh of the body, from which its matrices are computed where there is no archive.", "$ref": "#/$defs/path"},
+        "material": {"description": "Material of the body.", "oneOf": [{"$ref": "#/$defs/path"}, {"$ref": "#/$defs/material"}]},
+        "mesh_scale": {"description": "Factor on the coordinates of the mesh; default 1.", "type": "number", "exclusiveMinimum": 0},
+        "precompute": {"$ref": "#/$defs/precompute"},
         "archive": {"description": "Matrix archive written by bemprecomp.", "$ref": "#/$defs/path"},
         "position": {"description": "World position of the mesh's origin [m]; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
         "rotation": {"description": "World = position + R * mesh coordinates; default none.", "$ref": "#/$defs/rotation"},
@@ -161,6 +199,23 @@ const std::string& scene_schema() {
         "handles": {"description": "Vertices with prescribed positions.", "type": "array", "items": {"$ref": "#/$defs/handle"}},
         "tractions": {"description": "Loads on triangles.", "type": "array", "items": {"$ref": "#/$defs/traction"}}
       }
+    },
+    "material": {
+      "description": "As in a material file.",
+      "type": "object", "required": ["name", "density", "poisson_ratio"], "additionalProperties": false,
+      "properties": {
+        "name": {"description": "Any text.", "type": "string", "maxLength": 1000, "pattern": "^[^\\u0000-\\u001f\\u007f]*$"},
+        "density": {"description": "Mass per volume [kg/m^3].", "type": "number", "exclusiveMinimum": 0},
+        "poisson_ratio": {"description": "0.5 is incompressible.", "type": "number", "minimum": 0, "maximum": 0.5},
+        "shear_modulus": {"description": "[Pa]", "type": "number", "exclusiveMinimum": 0},
+        "youngs_modulus": {"description": "[Pa]", "type": "number", "exclusiveMinimum": 0},
+        "time_step": {"description": "Time step of archives [s], where none is given.", "type": "number", "exclusiveMinimum": 0}
+      },
+      "oneOf": [{"required": ["shear_modulus"]}, {"required": ["youngs_modulus"]}]
+    },
+    "precompute": {
+      "description": "Settings of the matrices: the options of bemprecomp, with _ for -.",
+      "type": "object", "additionalProperties": false, "properties": "settings"
     },
     "obstacle": {
       "oneOf": [

@@ -1,5 +1,6 @@
 #include "scene/selection.hpp"
 
+#include "mesh/describe.hpp"
 #include "scene/location.hpp"
 
 #include <algorithm>
@@ -87,6 +88,14 @@ std::vector<int> select_triangles(const BodyGeometry& g, const Selection& s) {
                    "the selection picks no triangle of the body's mesh (a triangle needs "
                    "all three corners chosen)");
   return triangles;
+}
+
+std::string to_text(const Selection& s) {
+  std::string text = std::to_string(static_cast<int>(s.kind));
+  for (int index : s.indices) text += " " + std::to_string(index);
+  text += " " + to_text(s.box_min) + " " + to_text(s.box_max);
+  if (s.normal) text += " " + to_text(*s.normal) + " " + to_text(s.normal_tolerance);
+  return text;
 }
 
 }  // namespace bem

@@ -15,4 +15,7 @@ std::vector<int> select_nodes(const BodyGeometry& geometry, const Selection& sel
 /// and facing the normal if there is one. Errors as above.
 std::vector<int> select_triangles(const BodyGeometry& geometry, const Selection& selection);
 
+/// The selection in a text that is another one for every other selection.
+std::string to_text(const Selection& selection);
+
 }  // namespace bem

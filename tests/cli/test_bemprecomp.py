@@ -76,13 +76,31 @@ class Inputs(CliCase):
             (self.folder / "pipe.obj").unlink()
 
     def test_time_step_comes_from_option_or_material(self):
-        done = self.run_tool("sphere.obj", "rubber.json", "-o", "a.bem", code=2)
-        self.assert_error(done, "--dt", "time_step")
+        done = self.run_tool("sphere.obj", "rubber.json", "-o", "a.bem")
+        self.assertRegex(done.stderr, 'info: no time step is given: 0.[0-9]+ s, .*"auto"')
         self.material("timed.json", time_step=0.01)
         for arguments, dt in [([], 0.01), (["--dt", "0.02"], 0.02)]:
             self.run_tool("sphere.obj", "timed.json", "-o", "a.bem", "--force", *arguments)
             info = json.loads(self.run_tool("--info", "a.bem", "--json").stdout)
             self.assertEqual(info["scheme"]["dt"], dt)
+
+    def test_an_archive_of_the_same_inputs_is_up_to_date(self):
+        self.precompute()
+        made = (self.folder / "a.bem").stat().st_mtime_ns
+        self.assertEqual(self.precompute().stderr, "info: a.bem: up to date\n")
+        self.assertEqual(self.precompute("--if-changed").stderr, "info: a.bem: up to date\n")
+        self.assertEqual((self.folder / "a.bem").stat().st_mtime_ns, made)
+        self.assert_error(self.precompute("--codec-tol", 1e-3, code=2), "a.bem: exists already", "--codec-tol 1e-04", "--force")
+        self.material(density=1001)
+        self.assert_error(self.precompute(code=2), "has another density: 1000 instead of 1001")
+        self.precompute("--if-changed")
+        self.assertGreater((self.folder / "a.bem").stat().st_mtime_ns, made)
+        self.sphere(0)
+        self.assert_error(self.precompute(code=2), "has another mesh: 42 vertices and 80 triangles instead of 12 vertices")
+        (self.folder / "a.bem").write_text("mine")
+        self.assert_error(self.precompute("--if-changed", code=2), "is no complete archive")
+        self.assertEqual((self.folder / "a.bem").read_text(), "mine")
+        self.assert_error(self.precompute("--if-changed", "--force", code=2), "either --force or --if-changed")
 
     def test_mesh_scale(self):
         self.precompute("--mesh-scale", 2)
@@ -117,7 +135,7 @@ class Usage(CliCase):
     def test_wrong_command_lines(self):
         wrong = [
             (["--dt", "0"], "--dt"), (["--dt", "-1"], "--dt"), (["--dt", "nan"], "--dt"),
-            (["--dt", "inf"], "--dt"), (["--dt", "x"], '--dt: "x" is not a number'),
+            (["--dt", "inf"], "--dt"), (["--dt", "x"], "--dt must be a positive number, not x"),
             (["--dt"], "--dt needs a value"), (["--diff", "a.bem"], "--diff needs 2 values"), (["--dt", "1e-12"], "--dt"),
             (["--scheme", "rk4"], "radau2"), (["--scheme", "theta:2"], "theta"),
             (["--window", "0"], "--window"), (["--window", "1.5"], "--window"),

@@ -19,7 +19,7 @@ class OtherActions(SimulationCase):
         self.scene["bodies"].append({**held_ball(), "frame": "static"})
         plan = self.check("--every", 10).stdout
         for part in ("2 from 1 archive", "84 vertices", " MB", "20 steps", "3 frames", "hdf5", "moving frame",
-                     "static frame", "gravity (0, -9.81, 0)", "fixed: ", "traction on "):
+                     "stationary frame", "gravity (0, -9.81, 0)", "fixed: ", "traction on "):
             self.assertIn(part, plan)
         self.assertEqual(os.listdir(self.folder), ["scene.json"])
 

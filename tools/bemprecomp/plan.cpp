@@ -6,26 +6,17 @@
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
 #include "compress/dense_store.hpp"
-#include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
-#include "mesh/solids.hpp"
-#include "model/defaults.hpp"
+#include "model/memory_estimate.hpp"
 #include "model/model_assembly.hpp"
 #include "scene/material_json.hpp"
-#include "scene/selection.hpp"
-#include "scene/selection_json.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <set>
 
 namespace bem {
 namespace {
-
-constexpr double kMostTraversalSteps = 20000;
-constexpr int kLongHistory = 60;
-constexpr double kLongestHistory = 100000;
 
 double seconds_of(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -33,78 +24,30 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void settle_method(const Surface& surface, Options& o, std::vector<std::string>& warnings) {
-  if (o.model == ModelKind::rigid || o.method != SpatialMethod::galerkin ||
-      default_method(surface) == SpatialMethod::galerkin)
-    return;
-  if (o.method_given)
-    throw Error(ErrorCode::invalid_input,
-                o.mesh +
-                    ": the body has a cavity inside, whose place --discretisation galerkin does "
-                    "not determine: use --discretisation collocation, or fill the cavity");
-  o.use_collocation();
-  warnings.push_back(o.mesh +
-                     ": the body has a cavity inside, so that --discretisation collocation is used "
-                     "instead of galerkin");
-}
-
-BodyGeometry read_body(Options& o, double density, std::vector<std::string>& warnings) {
-  TriangleMesh mesh = read_mesh(o.mesh);
-  if (o.mesh_scale != 1)
-    for (Vec3& v : mesh.vertices) v *= o.mesh_scale;
-  Surface surface = make_surface(std::move(mesh), o.mesh);
-  check_single_solid(surface, o.mesh);
-  warnings = surface.warnings;
-  settle_method(surface, o, warnings);
-  BodyGeometry geometry = make_geometry(surface, density);
-  geometry.corner_angle_deg = o.corner_angle_deg;
-  return geometry;
-}
-
-/// Nodes that a file of selections chooses.
-std::vector<int> read_loaded_nodes(const std::string& path, const BodyGeometry& geometry) {
-  std::set<int> nodes;
-  for (const Selection& s : read_selections(path))
-    for (int node : select_nodes(geometry, s)) nodes.insert(node);
-  return {nodes.begin(), nodes.end()};
-}
-
-void plan_storage(const Options& o, Plan& plan) {
-  PrecomputeOptions& p = plan.options;
-  p.codec = o.codec;
-  p.inverse = o.inverse.value_or(default_inverse(plan.geometry, o.model));
-  if (o.loads == "none") {
-    p.loads = Loads::none;
-  } else if (o.loads != "all") {
-    p.loads = Loads::some;
-    p.loaded_nodes = read_loaded_nodes(o.loads, plan.geometry);
-  }
-}
-
 /// Per row; with short time steps that of longer ones, times what lags and points of the
 /// quadrature grow by.
 double seconds_of_some_rows(const Plan& plan) {
   constexpr double kShort = 60;  // traversal steps
-  PrecomputeOptions options = plan.options;
+  PrecomputeOptions options = plan.body.options;
   Discretisation& d = options.discretisation;
-  const double factor = std::max(1.0, plan.lam / kShort);
+  const double factor = std::max(1.0, plan.body.lam / kShort);
   d.dt *= factor;
   d.history_length = static_cast<int>(std::ceil(d.history_length / factor));
-  return seconds_per_row(plan.geometry, options) * std::pow(factor, 3);
+  return seconds_per_row(plan.body.geometry, options) * std::pow(factor, 3);
 }
 
 /// Sizes of a dry run: by compressing a sample, or without compression if that takes too long.
 StoredEstimate estimate_compression(Plan& plan) {
   constexpr double kSampledNodes = 384, kTooLong = 60;  // seconds
   constexpr double kWithCompression = 1.5;              // of the time without
-  const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());
+  const auto nodes = static_cast<double>(plan.body.geometry.nodes.vertices.size());
   const double row = seconds_of_some_rows(plan);
   if (row * std::min(nodes, kSampledNodes) < kTooLong)
-    return estimate_stored(plan.geometry, plan.options);
+    return estimate_stored(plan.body.geometry, plan.body.options);
   plan.uncompressed = true;
-  PrecomputeOptions none = plan.options;
+  PrecomputeOptions none = plan.body.options;
   none.codec = CodecOptions();
-  StoredEstimate out = estimate_stored(plan.geometry, none);
+  StoredEstimate out = estimate_stored(plan.body.geometry, none);
   out.assembly_bytes = out.bytes;
   out.assembly_seconds = kWithCompression * row * nodes;
   return out;
@@ -112,50 +55,15 @@ StoredEstimate estimate_compression(Plan& plan) {
 
 void estimate_bytes(bool sample, Plan& plan) {
   StoredEstimate stored;
-  const bool compressed = plan.options.codec.codec->is_sampled();
+  const bool compressed = plan.body.options.codec.codec->is_sampled();
   if (!compressed || sample) {
-    stored = compressed ? estimate_compression(plan) : estimate_stored(plan.geometry, plan.options);
+    stored = compressed ? estimate_compression(plan)
+                        : estimate_stored(plan.body.geometry, plan.body.options);
     plan.stored = stored.bytes;
     plan.compression_seconds = stored.assembly_seconds;
   }
-  plan.peak = peak_bytes(plan.geometry, plan.options, stored);
-  plan.archive_bytes = archive_bytes(plan.geometry, plan.options, plan.stored);
-}
-
-double history_length(const Options& o, const Discretisation& d, double lam) {
-  if (o.history) return *o.history;
-  return damped_history_length(lam, d.damping.time / d.dt) +
-         (o.history_tolerance ? history_length_for_tolerance(d.scheme, lam, *o.history_tolerance)
-                              : default_history_length(d.scheme, lam));
-}
-
-double time_step(const Options& o, const Material& material) {
-  if (!o.dt && !material.time_step)
-    throw Error(ErrorCode::usage, "no time step: give --dt S, or \"time_step\" in " + o.material);
-  return o.dt ? *o.dt : *material.time_step;
-}
-
-void plan_history(const Options& o, Plan& plan) {
-  Discretisation& d = plan.options.discretisation;
-  plan.lam = traversal_steps(plan.geometry, d.material, d.dt);
-  if (!(plan.lam <= kMostTraversalSteps))
-    throw Error(ErrorCode::usage,
-                "the time step " + to_text(d.dt) + " s is too small: a shear wave takes " +
-                    to_text(std::round(plan.lam)) + " steps across the body; use a larger --dt");
-  const double length = history_length(o, d, plan.lam);
-  if (!(length <= kLongestHistory))
-    throw Error(ErrorCode::usage, "the history would be " + to_text(std::round(length)) +
-                                      " steps long; use a larger --dt or a smaller --damping");
-  d.history_length = static_cast<int>(length);
-  if (is_too_short(d.history_length, plan.lam))
-    throw Error(ErrorCode::usage, "--history " + std::to_string(d.history_length) +
-                                      " is too short: a shear wave takes " +
-                                      to_text(std::round(plan.lam)) +
-                                      " steps across the body; leave it away or use a larger --dt");
-  if (d.is_galerkin() && d.history_length < std::floor(plan.lam + 2))
-    plan.warnings.push_back("the history of " + std::to_string(d.history_length) +
-                            " steps is shorter than the " + to_text(std::round(plan.lam)) +
-                            " steps that a shear wave takes across the body: motions may grow");
+  plan.peak = peak_bytes(plan.body.geometry, plan.body.options, stored);
+  plan.archive_bytes = archive_bytes(plan.body.geometry, plan.body.options, plan.stored);
 }
 
 /// Factorisation, inverse and, if asked for, solution for n right-hand sides, for one initial
@@ -186,34 +94,14 @@ double seconds_per_byte_of_products() {
 
 }  // namespace
 
-Plan make_plan(Options& o) {
+Plan make_plan(const Options& o) {
   Plan plan;
-  Discretisation& d = plan.options.discretisation;
-  d.material = read_material(o.material);
-  plan.options.kind = o.model;
-  if (o.model == ModelKind::rigid) {
-    plan.geometry = read_body(o, d.material.density, plan.warnings);
-    plan.archive_bytes = archive_bytes(plan.geometry, plan.options, 0);
-    return plan;
-  }
-  d.scheme = Scheme::parse(o.scheme);
-  d.quadrature_tolerance = o.quadrature_tolerance;
-  d.damping = o.damping;
-  plan.options.window = o.window;
-  if (o.model == ModelKind::dynamic) d.dt = time_step(o, d.material);
-  plan.geometry = read_body(o, d.material.density, plan.warnings);
-  d.method = o.method;
-  plan.options.measure_growth = !d.is_galerkin() || o.measure_growth;
-  plan_storage(o, plan);
-  if (o.model == ModelKind::dynamic)
-    plan_history(o, plan);
+  plan.inputs = {o.mesh, o.mesh_scale, read_material(o.material), o.material, o.settings, {}};
+  plan.body = plan_body(read_mesh(o.mesh), plan.inputs, SettingStyle::option);
+  if (o.settings.model == ModelKind::rigid)
+    plan.archive_bytes = archive_bytes(plan.body.geometry, plan.body.options, 0);
   else
-    d.dt = quasistatic_time_step(plan.geometry, d.material);
-  estimate_bytes(o.dry_run, plan);
-  if (d.history_length > kLongHistory)
-    plan.warnings.push_back(
-        "the history is long: " + std::to_string(d.history_length) +
-        " steps; memory and time grow with it (a larger --dt makes it shorter)");
+    estimate_bytes(o.dry_run, plan);
   return plan;
 }
 
@@ -223,20 +111,20 @@ void check_memory(const Plan& plan) {
   throw Error(
       ErrorCode::resources,
       "not enough memory: " + bytes_text(plan.peak) + " are needed for " +
-          std::to_string(plan.geometry.nodes.vertices.size()) + " nodes and a history of " +
-          std::to_string(plan.options.discretisation.history_length) +
+          std::to_string(plan.body.geometry.nodes.vertices.size()) + " nodes and a history of " +
+          std::to_string(plan.body.options.discretisation.history_length) +
           " steps, but the machine has " + bytes_text(available) +
           "; use --codec lowrank, --inverse iterative, a coarser mesh, a larger --dt or a shorter "
           "--history");
 }
 
 TimeEstimate estimate_time(const Plan& plan) {
-  if (plan.options.kind == ModelKind::rigid) return {};
+  if (plan.body.options.kind == ModelKind::rigid) return {};
   constexpr double kGrowthSteps = 150, kWriteSpeed = 1e9;
-  const Discretisation& d = plan.options.discretisation;
-  const auto nodes = static_cast<double>(plan.geometry.nodes.vertices.size());
-  const bool compressed = plan.options.codec.codec->is_sampled();
-  const bool dense = plan.options.inverse == InverseKind::dense;
+  const Discretisation& d = plan.body.options.discretisation;
+  const auto nodes = static_cast<double>(plan.body.geometry.nodes.vertices.size());
+  const bool compressed = plan.body.options.codec.codec->is_sampled();
+  const bool dense = plan.body.options.inverse == InverseKind::dense;
   TimeEstimate t;
   t.assembly = compressed ? plan.compression_seconds : nodes * seconds_of_some_rows(plan);
   for (const InitialComponent& c : d.scheme.initial_components())
@@ -247,7 +135,7 @@ TimeEstimate estimate_time(const Plan& plan) {
   constexpr double kIterations = 30;
   const double lags = static_cast<double>(d.history_length * d.scheme.lag_components().size());
   const double reads = 0.5 * (dense ? 1 : 1 + kIterations / lags);
-  if (lags > 0 && plan.options.measure_growth)
+  if (lags > 0 && plan.body.options.measure_growth)
     t.growth =
         (kGrowthSteps + d.history_length) * plan.stored * reads * seconds_per_byte_of_products();
   t.writing = plan.archive_bytes / kWriteSpeed;

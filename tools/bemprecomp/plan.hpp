@@ -1,30 +1,23 @@
 #pragma once
 
-#include "model/precompute.hpp"
 #include "options.hpp"
-
-#include <string>
-#include <vector>
+#include "preparation/body_plan.hpp"
 
 namespace bem {
 
 /// What is going to be computed, and what it will take.
 struct Plan {
-  BodyGeometry geometry;
-  PrecomputeOptions options;
-  double lam = 0;  ///< steps that a shear wave takes across the body
+  BodyInputs inputs;
+  BodyPlan body;
   /// Bytes of the matrices, of the working set at most, and of the archive. What compression will
   /// leave is estimated for a dry run only, and zero otherwise.
   double stored = 0, peak = 0, archive_bytes = 0;
   bool uncompressed = false;       ///< those of a dry run that would have to compress for too long
   double compression_seconds = 0;  ///< of assembly and compression, if that was estimated
-  std::vector<std::string> warnings;
 };
 
-/// Reads and checks mesh and material. A body for which the default discretisation is not made gets
-/// another one: then `options` are changed, with a warning. Throws ErrorCode::invalid_input, and
-/// ErrorCode::usage if no time step is given or it cannot be used.
-Plan make_plan(Options& options);
+/// Reads and checks mesh and material. Throws as read_material() and plan_body().
+Plan make_plan(const Options& options);
 
 /// Throws ErrorCode::resources if the memory is more than the machine has.
 void check_memory(const Plan& plan);

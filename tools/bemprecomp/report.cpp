@@ -78,18 +78,18 @@ Json report_json(const ModelReport& r) {
 std::string time_steps_text(const Plan& plan) {
   constexpr double kSearch = 1.0005;  // from one time step to the next shorter one
   constexpr int kTargets[] = {4, 6, 8, 12, 20, 32};
-  const Discretisation& d = plan.options.discretisation;
+  const Discretisation& d = plan.body.options.discretisation;
   std::ostringstream text;
   double lam = 0.1;
   for (int target : kTargets) {
     const auto length = [&](double l) {
-      const double dt = plan.lam * d.dt / l;
+      const double dt = plan.body.lam * d.dt / l;
       return default_history_length(d.scheme, l) + damped_history_length(l, d.damping.time / dt);
     };
     while (length(lam * kSearch) <= target) lam *= kSearch;
     if (length(lam) > target) continue;
     text << (text.str().empty() ? "" : ", ") << "n_max " << target << ": " << std::setprecision(3)
-         << plan.lam * d.dt / lam << " s";
+         << plan.body.lam * d.dt / lam << " s";
   }
   return text.str();
 }
@@ -245,14 +245,14 @@ void print_info(std::ostream& out, const Archive& archive) {
 
 void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
   Table table(out);
-  const Discretisation& d = plan.options.discretisation;
-  print_body(table, plan.geometry, d.material, plan.options.kind);
+  const Discretisation& d = plan.body.options.discretisation;
+  print_body(table, plan.body.geometry, d.material, plan.body.options.kind);
   const char* bound = plan.uncompressed ? "less than " : "";  // a sample was too much to compress
   table.line("archive size", bound, bytes_text(plan.archive_bytes));
-  if (plan.options.kind == ModelKind::rigid) return;
-  print_scheme(table, d, plan.lam);
-  if (plan.options.kind == ModelKind::dynamic) {
-    table.line("lam", plan.lam);
+  if (plan.body.options.kind == ModelKind::rigid) return;
+  print_scheme(table, d, plan.body.lam);
+  if (plan.body.options.kind == ModelKind::dynamic) {
+    table.line("lam", plan.body.lam);
     table.line("n_max", d.history_length);
     table.line("time steps", time_steps_text(plan));
   }

@@ -1,10 +1,12 @@
 #include "run.hpp"
 
+#include "archive/archive_reader.hpp"
 #include "archive/archive_writer.hpp"
 #include "base/error.hpp"
 #include "files/pending_file.hpp"
 #include "mesh/describe.hpp"
 #include "model/growth.hpp"
+#include "preparation/archive_match.hpp"
 #include "report.hpp"
 
 #include <cmath>
@@ -87,13 +89,6 @@ class Phases {
   std::string current_;
 };
 
-Provenance provenance_of(const Options& o) {
-  const auto name = [](const std::string& path) {
-    return std::filesystem::path(path).filename().string();
-  };
-  return {version_text(), name(o.mesh), name(o.material), o.mesh_scale, o.canonical_text()};
-}
-
 int run_dry(const Plan& plan, Log& log) {
   if (!plan.uncompressed && plan.peak > static_cast<double>(physical_memory()))
     log.warning("the machine has not enough memory for this");
@@ -101,34 +96,59 @@ int run_dry(const Plan& plan, Log& log) {
   return 0;
 }
 
+/// Whether the archive is there, made from the same inputs. Throws ErrorCode::usage for a file that
+/// is to be kept.
+bool is_up_to_date(const Options& o, const BodyPlan& body) {
+  if (o.force || !std::filesystem::exists(o.output)) return false;
+  const auto keep = [&](const std::string& why) {
+    throw Error(ErrorCode::usage,
+                o.output + ": exists already and " + why + "; use --force to overwrite it");
+  };
+  std::string difference;
+  try {
+    difference = difference_from_plan(Archive(o.output), body, version_text());
+  } catch (const Error& e) {
+    if (e.code() != ErrorCode::archive) throw;
+    keep("is no complete archive");
+  }
+  if (!difference.empty() && !o.if_changed) keep(difference);
+  return difference.empty();
+}
+
 }  // namespace
 
-int run_precompute(const Options& given, Log& log) {
-  Options o = given;
-  if (!o.dry_run) check_archive_target(o.output, o.force);
+int run_precompute(const Options& o, Log& log) {
+  if (!o.dry_run) check_archive_target(o.output, true);
   Phases phases(log);
   phases.begin("mesh");
   Plan plan = make_plan(o);
-  std::vector<std::string> warnings = plan.warnings;
+  std::vector<std::string> warnings = plan.body.warnings;
   for (const std::string& w : warnings) log.warning(w);
+  for (const std::string& note : plan.body.notes) log.info(note);
   if (o.dry_run) return run_dry(plan, log);
+  if (is_up_to_date(o, plan.body)) {
+    log.info(o.output + ": up to date");
+    return 0;
+  }
   check_memory(plan);
-  check_archive_target(o.output, o.force, plan.archive_bytes);
+  check_archive_target(o.output, true, plan.archive_bytes);
   std::optional<PendingFile> stats;  // a bad path is noticed before the work
   if (!o.stats.empty()) stats.emplace(o.stats);
-  if (o.model != ModelKind::rigid)
-    log.info(std::to_string(plan.geometry.nodes.vertices.size()) + " nodes, " +
-             history_text(plan.options.discretisation.history_length) + ", " +
+  if (o.settings.model != ModelKind::rigid)
+    log.info(std::to_string(plan.body.geometry.nodes.vertices.size()) + " nodes, " +
+             history_text(plan.body.options.discretisation.history_length) + ", " +
              (plan.stored > 0 ? "" : "at least ") + bytes_text(plan.peak) + " of memory");
 
   phases.begin("tables");
-  const BodyModel model = precompute(std::move(plan.geometry), plan.options, phases.callback());
+  const BodyModel model =
+      precompute(std::move(plan.body.geometry), plan.body.options, phases.callback());
   const std::string growth = growth_warning(model);
   if (!growth.empty()) {
     warnings.push_back(growth);
     log.warning(growth);
   }
-  write_archive(o.output, model, provenance_of(o), o.force, phases.callback());
+  write_archive(o.output, model, provenance_of(plan.inputs, plan.body, version_text()),
+                o.force || o.if_changed, phases.callback());
   phases.finish();
   if (stats) stats->commit(stats_json(model, o.output, phases.timer(), warnings).dump(2) + "\n");
   log.info(o.output + ": " + bytes_text(static_cast<double>(std::filesystem::file_size(o.output))) +

@@ -8,8 +8,8 @@
 #include "common/command_line.hpp"
 #include "common/file_roles.hpp"
 #include "compare.hpp"
-#include "mesh/describe.hpp"
 #include "recode.hpp"
+#include "settings/precompute_settings.hpp"
 
 #include <iostream>
 
@@ -36,9 +36,10 @@ void check(const Options& o) {
     refuse("name either the archive to write, -o OUT.bem, or tolerances to --compare codecs at");
   const Codec* codec = find_codec(o.codec);
   if (!codec || codec->is_lossless())
-    refuse("compression is by " + codec_options_with(is_lossy) + ", not by --codec " + o.codec);
+    refuse("compression is by " + codecs_text(SettingStyle::option, is_lossy) +
+           ", not by --codec " + o.codec);
   if (o.ratio != 0 && !codec->takes_ratio())
-    refuse("--compression-ratio belongs to " + codec_options_with(takes_ratio));
+    refuse("--compression-ratio belongs to " + codecs_text(SettingStyle::option, takes_ratio));
   if (o.ratio != 0 && !(o.ratio >= 1 && o.ratio <= 1e4))
     refuse("--compression-ratio must be from 1 to 10000");
   std::vector<double> tolerances = o.compared;

@@ -7,6 +7,7 @@
 #include "scene/location.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -23,7 +24,8 @@ namespace {
 struct Typed {
   Options options;
   std::vector<std::string> formats;
-  bool check = false, print_schema = false;
+  bool check = false, print_schema = false, prepare = false, cache_info = false;
+  std::string cache_clean;
   std::optional<int> checkpoint_every;
 };
 
@@ -61,6 +63,16 @@ void add_options(CLI::App& app, Typed& t) {
   app.add_flag("-q,--quiet", o.quiet, "only warnings and errors");
   app.add_flag("-v,--verbose", o.verbose, "also details");
   app.add_option("--log-file", o.log_file, "file for all messages")->type_name("FILE");
+  app.option_defaults()->group("Archives of bodies with \"mesh\" and \"material\"");
+  app.add_option("--cache", o.cache,
+                 "folder for them (the environment's BEM_CACHE, else ~/.cache/bem)")
+      ->type_name("DIR");
+  app.add_flag("--prepare", t.prepare, "compute the missing ones, then stop");
+  app.add_flag("--cache-info", t.cache_info, "list what is in the cache, then stop");
+  app.add_option("--cache-clean", t.cache_clean,
+                 "keep so many bytes of the cache, last used first (10GB, 500MB, 0), or what has "
+                 "been used within some time (30d, 12h), then stop")
+      ->type_name("SIZE|AGE");
   app.option_defaults()->group("Without a simulation");
   app.add_flag("--check", t.check,
                "validate the scene and its archives, print what would be done, then stop");
@@ -99,10 +111,50 @@ void check_numbers(const Options& o) {
     refuse("--fps must be a number > 0, not " + to_text(*o.fps));
 }
 
+/// "10GB", "500 MB", "0": bytes; "30d", "12h": seconds.
+CacheLimit parse_cache_limit(const std::string& text) {
+  struct Unit {
+    const char* name;
+    double factor;
+    bool time;
+  };
+  constexpr Unit kUnits[] = {{"", 1, false},     {"B", 1, false},    {"kB", 1e3, false},
+                             {"MB", 1e6, false}, {"GB", 1e9, false}, {"TB", 1e12, false},
+                             {"s", 1, true},     {"min", 60, true},  {"h", 3600, true},
+                             {"d", 86400, true}, {"w", 604800, true}};
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, code] = std::from_chars(text.data(), end, value);
+  const std::string_view unit(rest + (rest != end && *rest == ' ' ? 1 : 0));
+  for (const Unit& u : kUnits)
+    if (code == std::errc() && value >= 0 && unit == u.name)
+      return u.time ? CacheLimit{std::nullopt, value * u.factor}
+                    : CacheLimit{value * u.factor, std::nullopt};
+  refuse("--cache-clean takes a size (10GB, 500MB, 0) or an age (30d, 12h), not " +
+         in_quotes(text));
+}
+
+/// The one thing that is to be done.
+Options::Action parse_action(const Typed& t) {
+  using Action = Options::Action;
+  const std::pair<bool, Action> given[] = {{t.check, Action::check},
+                                           {t.print_schema, Action::print_schema},
+                                           {t.prepare, Action::prepare},
+                                           {t.cache_info, Action::cache_info},
+                                           {!t.cache_clean.empty(), Action::cache_clean}};
+  Action action = Action::simulate;
+  for (const auto& [is_given, which] : given) {
+    if (!is_given) continue;
+    if (action != Action::simulate)
+      refuse("use only one of --check, --prepare, --print-schema, --cache-info and --cache-clean");
+    action = which;
+  }
+  return action;
+}
+
 Options checked(Typed& t) {
   Options& o = t.options;
   if (o.resume && o.force) refuse("use either --resume or --force");
-  if (t.check && t.print_schema) refuse("use either --check or --print-schema");
   if (o.steps && o.duration) refuse("use either --steps or --duration");
   if (o.every && o.fps) refuse("use either --every or --fps");
   if (o.quiet && o.verbose) refuse("use either --quiet or --verbose");
@@ -111,14 +163,11 @@ Options checked(Typed& t) {
   if (t.checkpoint_every && *t.checkpoint_every < 1)
     refuse("--checkpoint-every must be at least 1, not " + std::to_string(*t.checkpoint_every));
   o.checkpoint_every = t.checkpoint_every.value_or(0);
-  if (t.print_schema) {
-    o.action = Options::Action::print_schema;
-    return o;
-  }
+  o.action = parse_action(t);
+  if (o.action == Options::Action::cache_clean) o.cache_limit = parse_cache_limit(t.cache_clean);
+  if (!o.needs_scene()) return o;
   if (o.scene.empty()) refuse("give a scene file: bemsim SCENE.json -o OUT_DIR");
-  if (t.check)
-    o.action = Options::Action::check;
-  else if (o.output.empty())
+  if (o.action == Options::Action::simulate && o.output.empty())
     refuse("name the folder for the trajectories: -o OUT_DIR");
   return o;
 }
@@ -130,7 +179,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   CLI::App app("Simulates a scene of deformable bodies and writes their trajectories.", "bemsim");
   set_up_help(app,
               "  bemsim SCENE.json -o OUT_DIR [options]\n"
-              "  bemsim SCENE.json --check\n");
+              "  bemsim SCENE.json --check | --prepare\n"
+              "  bemsim --cache-info | --cache-clean SIZE|AGE\n");
   add_options(app, typed);
   if (!parse_command_line(app, argc, argv, "one scene is enough")) return std::nullopt;
   return checked(typed);

@@ -8,9 +8,15 @@
 
 namespace bem {
 
+/// What --cache-clean leaves in the cache.
+struct CacheLimit {
+  std::optional<double> bytes;  ///< at most so many bytes,
+  std::optional<double> age;    ///< or what has been used within so many seconds
+};
+
 /// The command line of bemsim, checked.
 struct Options {
-  enum class Action { simulate, check, print_schema };
+  enum class Action { simulate, prepare, check, print_schema, cache_info, cache_clean };
   Action action = Action::simulate;
 
   std::string scene, output;
@@ -24,6 +30,12 @@ struct Options {
   bool resume = false;
   bool force = false, quiet = false, verbose = false;
   std::string stats, log_file;
+  std::string cache;       ///< folder of computed archives; empty: the default one
+  CacheLimit cache_limit;  ///< of Action::cache_clean
+
+  bool needs_scene() const {
+    return action == Action::simulate || action == Action::prepare || action == Action::check;
+  }
 };
 
 /// Parses and checks a command line; an empty result means that help or version was printed. Throws

@@ -132,10 +132,10 @@ void add_warnings(Plan& plan) {
                               " turns about as fast as it vibrates: its deformation will be wrong; "
                               "make it stiffer or slower, or say \"centrifugal\": false");
     if (body.spec->frame == FrameMotion::stationary && body.fixed + body.handled == 0)
-      plan.warnings.push_back(where(body.spec->location) + ": nothing holds the body " +
-                              in_quotes(body.spec->name) +
-                              ", but its stationary frame is made for small displacements; a moving "
-                              "frame follows it");
+      plan.warnings.push_back(
+          where(body.spec->location) + ": nothing holds the body " + in_quotes(body.spec->name) +
+          ", but its stationary frame is made for small displacements; a moving "
+          "frame follows it");
   }
 }
 
@@ -191,8 +191,9 @@ void print_body(std::ostream& out, const PlannedBody& body, const Vec3& gravity)
   const TriangleMesh& mesh = body.archive->geometry().input;
   const Discretisation& d = body.archive->discretisation();
   out << "body " << in_quotes(spec.name) << ": " << count_text(mesh.vertices.size(), "vertex")
-      << ", " << count_text(mesh.triangles.size(), "triangle") << ", archive "
-      << printable(spec.archive.written);
+      << ", " << count_text(mesh.triangles.size(), "triangle")
+      << (spec.source ? ", mesh " : ", archive ")
+      << printable(spec.source ? spec.source->mesh.written : spec.archive.written);
   if (body.archive->kind() == ModelKind::rigid)
     out << " (rigid)\n";
   else if (d.history_length == 0)

@@ -20,6 +20,13 @@ bool has_type(const Json& value, const std::string& type) {
   throw std::runtime_error("schema type " + type);
 }
 
+/// `types`: one or a list of them.
+bool has_types(const Json& value, const Json& types) {
+  if (types.is_string()) return has_type(value, types);
+  return std::any_of(types.begin(), types.end(),
+                     [&](const Json& type) { return has_type(value, type); });
+}
+
 bool has_twins(const Json& array) {
   for (std::size_t i = 0; i < array.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -27,17 +34,20 @@ bool has_twins(const Json& array) {
   return false;
 }
 
+const std::string kNoControls = "^[^\\u0000-\\u001f\\u007f]*$";
+
 bool matches(const std::string& text, const std::string& pattern) {
   // std::regex has no zero character in its classes; the patterns of the schema are few.
   const auto allowed = [&](char c) {
     const auto byte = static_cast<unsigned char>(c);
     if (pattern == "^[^\\u0000]+$") return byte != 0;
+    if (pattern == kNoControls) return byte >= 0x20 && c != 0x7F;
     if (pattern == "^[^/\\u0000-\\u001f\\u007f]+$") return byte >= 0x20 && c != '/' && c != 0x7F;
     throw std::runtime_error("schema pattern " + pattern);
   };
   for (char c : text)
     if (!allowed(c)) return false;
-  return !text.empty();
+  return !text.empty() || pattern == kNoControls;
 }
 
 /// Rules for numbers, strings and arrays; true if they hold or do not concern `value`.
@@ -73,8 +83,9 @@ std::string MiniSchema::check_keyword(const Json& schema, const std::string& key
     return "";
   if (keyword == "$ref")
     return check(root_.at(Json::json_pointer(rule.get<std::string>().substr(1))), value);
-  if (keyword == "type") return has_type(value, rule) ? "" : "type of " + value.dump();
-  if (keyword == "oneOf" || keyword == "not") return check_combination(keyword, rule, value);
+  if (keyword == "type") return has_types(value, rule) ? "" : "type of " + value.dump();
+  if (keyword == "oneOf" || keyword == "anyOf" || keyword == "not")
+    return check_combination(keyword, rule, value);
   if (keyword == "items" && value.is_array())
     for (const Json& item : value)
       if (const std::string mistake = check(rule, item); !mistake.empty()) return mistake;
@@ -110,7 +121,9 @@ std::string MiniSchema::check_combination(const std::string& keyword, const Json
   if (keyword == "not") return check(rule, value).empty() ? "not of " + value.dump() : "";
   int valid = 0;
   for (const Json& option : rule) valid += check(option, value).empty() ? 1 : 0;
-  return valid == 1 ? "" : std::to_string(valid) + " options for " + value.dump();
+  return valid == 1 || (valid > 1 && keyword == "anyOf")
+             ? ""
+             : std::to_string(valid) + " options for " + value.dump();
 }
 
 /// The part of the schema that lists the properties of `value`.

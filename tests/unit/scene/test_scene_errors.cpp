@@ -55,8 +55,9 @@ TEST_CASE("the scenes that the errors are made from are valid") {
 
 TEST_CASE("an unknown key is answered with the nearest valid one") {
   REQUIRE(body_error("@\"gravty\": true") ==
-          "/bodies/0/gravty: unknown key; did you mean \"gravity\"? (allowed: name, archive, "
-          "position, rotation, velocity, angular_velocity, frame, correction, gravity, "
+          "/bodies/0/gravty: unknown key; did you mean \"gravity\"? (allowed: name, archive, mesh, "
+          "material, mesh_scale, precompute, position, rotation, velocity, angular_velocity, "
+          "frame, correction, gravity, "
           "centrifugal, friction, "
           "fixed, "
           "handles, tractions)");
@@ -67,15 +68,13 @@ TEST_CASE("an unknown key is answered with the nearest valid one") {
                Catch::StartsWith("/bodies/0/weather: unknown key ("));
   REQUIRE(minimal("\"archive\"", "@\"archiv\"") ==
           "/bodies/0/archiv: unknown key; did you mean \"archive\"?");
-  REQUIRE(minimal("\"time_step\"", "@\"timestep\"") ==
-          "/timestep: unknown key; did you mean \"time_step\"?");
+  REQUIRE_THAT(minimal("\"time_step\"", "@\"timestep\""),
+               Catch::StartsWith("/timestep: unknown key; did you mean \"time_step\"?"));
 }
 
 TEST_CASE("what is required must be there") {
   REQUIRE(error_at_mark("@{}") == "the required key \"version\" is missing");
   REQUIRE(error_at_mark("@[]") == "expected a scene (an object), found an empty array");
-  REQUIRE(error_at_mark('@' + changed(scene_with(""), "\"time_step\": 0.01, ", "")) ==
-          "the required key \"time_step\" is missing");
   REQUIRE(error_at_mark('@' + changed(scene_with(""), "\"duration\": 1, ", "")) ==
           "the required key \"duration\" is missing");
   REQUIRE(error_at_mark("@{\"version\": 1, \"time_step\": 1, \"duration\": 1}") ==

@@ -16,7 +16,7 @@ TEST_CASE("a scene that uses every key is read completely: the world") {
   REQUIRE(s.duration == 1.5);
   REQUIRE(s.gravity == Vec3(0, -9.81, 0));
   REQUIRE(where(s.time_step_location) == "dir/s.json:2:16: /time_step");
-  REQUIRE(s.bodies.size() == 3);
+  REQUIRE(s.bodies.size() == 5);
 
   REQUIRE(s.obstacles.size() == 2);
   REQUIRE(s.obstacles[0].name == "floor");
@@ -30,7 +30,7 @@ TEST_CASE("a scene that uses every key is read completely: the world") {
   REQUIRE(bowl.rotation.axis == Vec3(0, 0, 1));
   REQUIRE(bowl.rotation.angle == Approx(kPi / 2));
   REQUIRE(bowl.motion.empty());
-  REQUIRE(where(s.obstacles[1].location) == "dir/s.json:23:18: /obstacles/1");
+  REQUIRE(where(s.obstacles[1].location) == "dir/s.json:26:18: /obstacles/1");
 
   REQUIRE(s.joints.size() == 2);
   REQUIRE(s.joints[0].type == JointType::point);
@@ -105,6 +105,30 @@ TEST_CASE("a scene that uses every key is read completely: a body") {
   REQUIRE_FALSE(s.bodies[1].gravity);
   REQUIRE(s.bodies[1].archive.resolved == "/archives/rod.bem");
   REQUIRE(s.bodies[2].archive.resolved == "dir/../rod.bem");
+}
+
+TEST_CASE("a scene that uses every key is read completely: what archives are computed from") {
+  const Scene s = parse_scene("dir/s.json", full_scene());
+  REQUIRE(s.bodies[3].archive.resolved.empty());
+  const BodySource& soft = s.bodies[3].source.value();
+  REQUIRE(soft.mesh.resolved == "dir/toy.obj");
+  REQUIRE(soft.mesh_scale == 0.001);
+  REQUIRE(soft.material.name == "jelly");
+  REQUIRE(soft.material.shear_modulus == Approx(1e4));
+  REQUIRE(soft.settings.scheme == "radau3");
+  REQUIRE(soft.settings.codec_tolerance.value() == 1e-3);
+  REQUIRE(soft.settings.measure_growth);
+  const BodySource& firm = s.bodies[4].source.value();
+  REQUIRE(firm.mesh_scale == 1);
+  REQUIRE(firm.settings.canonical_text() == PrecomputeSettings().canonical_text());
+}
+
+TEST_CASE("the time step of a scene may be left open") {
+  for (const std::string time_step : {"", "\"time_step\": \"auto\", "})
+    REQUIRE(parse_scene("s.json", "{\"version\": 1, " + time_step +
+                                      "\"duration\": 1, \"bodies\": [{\"name\": \"a\", "
+                                      "\"archive\": \"a.bem\"}]}")
+                .time_step == 0);
 }
 
 TEST_CASE("what a scene does not mention has its default") {

@@ -52,9 +52,10 @@ std::set<std::string> allowed_keys(const std::string& message) {
 
 /// Whether an error of the reader is about something that a schema cannot express.
 bool beyond_schema(const std::string& message) {
-  for (const char* part :
-       {"the zero vector", "a later time than", "\"max\" >= \"min\"", "already used at",
-        "name of a body of this scene", "another body than", "time steps, found a duration"})
+  for (const char* part : {"the zero vector", "a later time than", "\"max\" >= \"min\"",
+                           "already used at", "name of a body of this scene", "another body than",
+                           "time steps, found a duration", "/precompute/", "/precompute: ",
+                           "cannot be opened", "cannot be read", "speed of shear waves"})
     if (message.find(part) != std::string::npos) return true;
   return false;
 }
@@ -84,13 +85,14 @@ TEST_CASE("the schema accepts what the reader accepts: the examples") {
   }
 }
 
-TEST_CASE("the full scene uses every key of the schema") {
+TEST_CASE("the full scene uses every key of the schema but for settings of matrices") {
   std::set<std::string> used, known;
   for (const Pointer& pointer : all_pointers(Json::parse(full_scene())))
     if (!pointer.empty()) used.insert(pointer.back());
   const Json rules = Json::parse(scene_schema());
   for (const Pointer& pointer : all_pointers(rules))
-    if (!pointer.empty() && pointer.back() == "properties")
+    if (!pointer.empty() && pointer.back() == "properties" &&
+        pointer.to_string().find("/precompute/") == std::string::npos)
       for (const auto& property : rules.at(pointer).items()) known.insert(property.key());
   for (const std::string& key : known) {
     INFO(key);

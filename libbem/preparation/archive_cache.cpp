@@ -1,0 +1,138 @@
+#include "preparation/archive_cache.hpp"
+
+#include "base/error.hpp"
+#include "files/digest.hpp"
+#include "files/file_lock.hpp"
+#include "files/temporary_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+namespace bem {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLocks = ".locks";
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+void create_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw Error(ErrorCode::resources, folder + ": the cache cannot be created (" + error.message() +
+                                          "); name another folder with --cache or BEM_CACHE");
+}
+
+/// What is fit for names of files of a mesh's name.
+std::string readable_part(const std::string& mesh) {
+  constexpr std::size_t kLongest = 60;
+  std::string stem = fs::path(mesh).stem().string().substr(0, kLongest);
+  for (char& c : stem)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+  return stem;
+}
+
+}  // namespace
+
+std::string default_cache_folder() {
+  if (const std::string own = environment("BEM_CACHE"); !own.empty()) return own;
+  if (const std::string cache = environment("XDG_CACHE_HOME"); !cache.empty())
+    return cache + "/bem";
+  if (const std::string home = environment("HOME"); !home.empty()) return home + "/.cache/bem";
+  throw Error(ErrorCode::usage,
+              "there is no place for computed archives: name a folder with --cache or BEM_CACHE");
+}
+
+ArchiveCache::ArchiveCache(std::string folder) : folder_(std::move(folder)) {
+  create_folder(folder_);
+}
+
+std::string ArchiveCache::path_of(const std::string& mesh, const std::string& inputs) const {
+  return folder_ + "/" + readable_part(mesh) + "-" + digest_of(inputs) + ".bem";
+}
+
+bool ArchiveCache::has(const std::string& path) const {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+bool ArchiveCache::provide(const std::string& path, const std::function<void()>& make,
+                           const std::function<void()>& waiting) const {
+  bool made = false;
+  if (!has(path)) {
+    create_folder(folder_ + "/" + kLocks);
+    const FileLock lock(folder_ + "/" + kLocks + "/" + fs::path(path).stem().string(), waiting);
+    made = !has(path);
+    if (made) make();
+  }
+  std::error_code error;  // the time of a file of another user stays
+  fs::last_write_time(path, fs::file_time_type::clock::now(), error);
+  return made;
+}
+
+std::vector<ArchiveCache::Entry> ArchiveCache::entries() const {
+  std::vector<Entry> out;
+  std::error_code error;
+  const auto now = fs::file_time_type::clock::now();
+  for (const fs::directory_entry& file : fs::directory_iterator(folder_, error)) {
+    if (file.path().extension() != ".bem") continue;
+    const std::uintmax_t bytes = file.file_size(error);
+    if (error) continue;  // another process has removed it
+    const std::chrono::duration<double> age = now - file.last_write_time(error);
+    out.push_back({file.path().filename().string(), static_cast<double>(bytes), age.count()});
+  }
+  std::sort(out.begin(), out.end(), [](const Entry& a, const Entry& b) { return a.age < b.age; });
+  return out;
+}
+
+void ArchiveCache::remove_abandoned() const {
+  std::error_code error;
+  std::vector<std::string> finals;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder_, error)) {
+    const std::string name = file.path().filename().string();
+    const std::string final_name(TemporaryFile::final_name(name));
+    if (final_name != name) finals.push_back(folder_ + "/" + final_name);
+  }
+  for (const std::string& path : finals) TemporaryFile::remove_abandoned(path);
+}
+
+void ArchiveCache::remove(const std::vector<Entry>& entries) const {
+  std::error_code error;
+  for (const Entry& e : entries) {
+    fs::remove(folder_ + "/" + e.name, error);
+    if (error)
+      throw Error(ErrorCode::resources,
+                  folder_ + "/" + e.name + ": cannot be removed (" + error.message() + ")");
+  }
+}
+
+std::vector<ArchiveCache::Entry> ArchiveCache::remove_older(double age) const {
+  remove_abandoned();
+  std::vector<Entry> old;
+  for (const Entry& e : entries())
+    if (e.age >= age) old.push_back(e);
+  remove(old);
+  return old;
+}
+
+std::vector<ArchiveCache::Entry> ArchiveCache::remove_beyond(double bytes) const {
+  remove_abandoned();
+  std::vector<Entry> beyond;
+  double kept = 0;
+  for (const Entry& e : entries()) {
+    kept += e.bytes;
+    if (kept > bytes) beyond.push_back(e);
+  }
+  remove(beyond);
+  return beyond;
+}
+
+}  // namespace bem

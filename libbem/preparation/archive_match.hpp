@@ -1,0 +1,21 @@
+#pragma once
+
+#include "archive/archive_reader.hpp"
+#include "preparation/body_plan.hpp"
+
+#include <string>
+
+namespace bem {
+
+// How an archive differs from what it is held to, for messages: "has another mesh: 42 vertices
+// instead of 64". Empty if it does not.
+
+/// From a mesh as it is in its file, times a factor, and from a material.
+std::string difference_from_mesh(const Archive& archive, TriangleMesh mesh, double scale);
+std::string difference_from_material(const Archive& archive, const Material& material);
+
+/// From what `program` would write for a plan.
+std::string difference_from_plan(const Archive& archive, const BodyPlan& plan,
+                                 const std::string& program);
+
+}  // namespace bem

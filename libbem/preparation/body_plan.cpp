@@ -1,0 +1,208 @@
+#include "preparation/body_plan.hpp"
+
+#include "base/error.hpp"
+#include "mesh/describe.hpp"
+#include "mesh/extent.hpp"
+#include "mesh/solids.hpp"
+#include "model/defaults.hpp"
+#include "preparation/time_step.hpp"
+#include "scene/selection.hpp"
+#include "scene/selection_json.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace bem {
+namespace {
+
+Surface surface_of(TriangleMesh mesh, const BodyInputs& inputs) {
+  for (Vec3& v : mesh.vertices) v *= inputs.mesh_scale;
+  Surface surface = make_surface(std::move(mesh), inputs.mesh);
+  check_single_solid(surface, inputs.mesh);
+  return surface;
+}
+
+/// The steps of plan_body().
+class Planner {
+ public:
+  Planner(const BodyInputs& inputs, SettingStyle style) : inputs_(inputs), style_(style) {
+    plan_.settings = inputs.settings;
+  }
+
+  BodyPlan run(TriangleMesh mesh) {
+    PrecomputeOptions& options = plan_.options;
+    options.kind = settings().model;
+    options.discretisation.material = inputs_.material;
+    make_body(std::move(mesh));
+    if (options.kind == ModelKind::rigid) return std::move(plan_);
+    choose_discretisation();
+    choose_storage();
+    if (options.kind == ModelKind::dynamic)
+      choose_history();
+    else
+      options.discretisation.dt = quasistatic_time_step(plan_.geometry, inputs_.material);
+    return std::move(plan_);
+  }
+
+ private:
+  const PrecomputeSettings& settings() const { return plan_.settings; }
+  std::string name(const char* setting) const { return setting_name(style_, setting); }
+  std::string text(const char* setting, const std::string& value) const {
+    return setting_text(style_, setting, value);
+  }
+  /// The time step as its reader knows it.
+  std::string time_step_name() const {
+    return style_ == SettingStyle::option ? "--dt" : "\"time_step\"";
+  }
+
+  void make_body(TriangleMesh mesh);
+  void settle_method(const Surface& surface);
+  void choose_discretisation();
+  void choose_storage();
+  void load(const std::vector<Selection>& selections);
+  double time_step();
+  void choose_history();
+  double history_length() const;
+  void check_history();
+
+  const BodyInputs& inputs_;
+  SettingStyle style_;
+  BodyPlan plan_;
+};
+
+void Planner::make_body(TriangleMesh mesh) {
+  const Surface surface = surface_of(std::move(mesh), inputs_);
+  plan_.warnings = surface.warnings;
+  if (settings().model != ModelKind::rigid) settle_method(surface);
+  plan_.geometry = make_geometry(surface, inputs_.material.density);
+  plan_.geometry.corner_angle_deg = settings().corner_angle();
+}
+
+void Planner::settle_method(const Surface& surface) {
+  const SpatialMethod method = default_method(surface);
+  if (settings().method_or_default() != SpatialMethod::galerkin ||
+      method == SpatialMethod::galerkin)
+    return;
+  const std::string galerkin = text("discretisation", "galerkin"),
+                    collocation = text("discretisation", "collocation");
+  if (settings().method)
+    throw Error(ErrorCode::invalid_input,
+                inputs_.mesh + ": the body has a cavity inside, whose place " + galerkin +
+                    " does not determine: use " + collocation + ", or fill the cavity");
+  plan_.settings.method = method;
+  plan_.warnings.push_back(inputs_.mesh + ": the body has a cavity inside, so that " + collocation +
+                           " is used instead of galerkin");
+}
+
+void Planner::choose_discretisation() {
+  Discretisation& d = plan_.options.discretisation;
+  d.scheme = Scheme::parse(settings().scheme_name());
+  d.method = settings().method_or_default();
+  d.quadrature_tolerance = settings().quadrature_tolerance;
+  d.damping = settings().damping;
+  plan_.options.window = settings().window;
+  plan_.options.measure_growth = !d.is_galerkin() || settings().measure_growth;
+}
+
+void Planner::choose_storage() {
+  PrecomputeOptions& options = plan_.options;
+  options.codec = settings().codec_options();
+  options.inverse = settings().inverse.value_or(default_inverse(plan_.geometry, options.kind));
+  if (settings().loads == "none")
+    options.loads = Loads::none;
+  else if (settings().has_load_file())
+    load(read_selections(settings().loads));
+  else if (!inputs_.loaded.empty())
+    load(inputs_.loaded);
+}
+
+/// Some vertices may carry loads.
+void Planner::load(const std::vector<Selection>& selections) {
+  std::set<int> nodes;
+  for (const Selection& s : selections)
+    for (int node : select_nodes(plan_.geometry, s)) nodes.insert(node);
+  plan_.options.loads = Loads::some;
+  plan_.options.loaded_nodes.assign(nodes.begin(), nodes.end());
+}
+
+double Planner::time_step() {
+  if (settings().time_step) return *settings().time_step;
+  if (inputs_.material.time_step) return *inputs_.material.time_step;
+  const double step = automatic_time_step(
+      {wave_times(plan_.geometry.input, plan_.geometry.extent, inputs_.material)});
+  plan_.notes.push_back("no time step is given: " + to_text(step) +
+                        " s, from the speed of shear waves and the edges of the mesh; a scene with "
+                        "this archive needs \"time_step\": " +
+                        to_text(step) + " or \"auto\"");
+  return step;
+}
+
+double Planner::history_length() const {
+  const Discretisation& d = plan_.options.discretisation;
+  if (settings().history) return *settings().history;
+  const auto& tolerance = settings().history_tolerance;
+  return damped_history_length(plan_.lam, d.damping.time / d.dt) +
+         (tolerance ? history_length_for_tolerance(d.scheme, plan_.lam, *tolerance)
+                    : default_history_length(d.scheme, plan_.lam));
+}
+
+void Planner::choose_history() {
+  constexpr double kMostTraversalSteps = 20000, kLongestHistory = 100000;
+  Discretisation& d = plan_.options.discretisation;
+  d.dt = time_step();
+  plan_.lam = traversal_steps(plan_.geometry, d.material, d.dt);
+  if (!(plan_.lam <= kMostTraversalSteps))
+    throw Error(ErrorCode::usage, "the time step " + to_text(d.dt) +
+                                      " s is too small: a shear wave takes " +
+                                      to_text(std::round(plan_.lam)) +
+                                      " steps across the body; use a larger " + time_step_name());
+  const double length = history_length();
+  if (!(length <= kLongestHistory))
+    throw Error(ErrorCode::usage, "the history would be " + to_text(std::round(length)) +
+                                      " steps long; use a larger " + time_step_name() +
+                                      " or a smaller " + name("damping"));
+  d.history_length = static_cast<int>(length);
+  check_history();
+}
+
+void Planner::check_history() {
+  constexpr int kLongHistory = 60;
+  const Discretisation& d = plan_.options.discretisation;
+  const std::string crossing = to_text(std::round(plan_.lam));
+  if (is_too_short(d.history_length, plan_.lam))
+    throw Error(ErrorCode::usage, name("history") + " " + std::to_string(d.history_length) +
+                                      " is too short: a shear wave takes " + crossing +
+                                      " steps across the body; leave it away or use a larger " +
+                                      time_step_name());
+  if (d.is_galerkin() && d.history_length < std::floor(plan_.lam + 2))
+    plan_.warnings.push_back("the history of " + std::to_string(d.history_length) +
+                             " steps is shorter than the " + crossing +
+                             " steps that a shear wave takes across the body: motions may grow");
+  if (d.history_length > kLongHistory)
+    plan_.warnings.push_back("the history is long: " + std::to_string(d.history_length) +
+                             " steps; memory and time grow with it (a larger " + time_step_name() +
+                             " makes it shorter)");
+}
+
+}  // namespace
+
+BodyPlan plan_body(TriangleMesh mesh, const BodyInputs& inputs, SettingStyle style) {
+  return Planner(inputs, style).run(std::move(mesh));
+}
+
+WaveTimes wave_times(TriangleMesh mesh, const BodyInputs& inputs) {
+  const Surface surface = surface_of(std::move(mesh), inputs);
+  return wave_times(surface.nodes, diameter(surface.nodes.vertices), inputs.material);
+}
+
+Provenance provenance_of(const BodyInputs& inputs, const BodyPlan& plan,
+                         const std::string& program) {
+  const auto file_name = [](const std::string& path) {
+    return std::filesystem::path(path).filename().string();
+  };
+  return {program, file_name(inputs.mesh), file_name(inputs.material_name), inputs.mesh_scale,
+          plan.settings.canonical_text()};
+}
+
+}  // namespace bem

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "common/cli.hpp"
+#include "options.hpp"
+#include "simulation/archive_source.hpp"
+
+#include <iosfwd>
+
+namespace bem {
+
+/// Computes or finds the archives of bodies that the scene describes by mesh and material
+/// (prepare_scene), and says what it does. --check computes none: the result is how many it misses.
+std::size_t prepare_archives(const Options& options, Scene& scene, ArchiveSource& source,
+                             const Progress& progress, Log& log);
+
+/// --cache-info and --cache-clean. Both return the exit code.
+int print_cache(std::ostream& out, const Options& options);
+int clean_cache(std::ostream& out, const Options& options);
+
+}  // namespace bem
