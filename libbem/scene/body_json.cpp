@@ -63,6 +63,7 @@ BodySpec read_body(const JsonValue& value) {
   body.location = value.location();
   body.name = read_name(reader.required("name"));
   body.archive = read_path(reader.required("archive"));
+  if (const auto mesh = reader.optional("render_mesh")) body.render_mesh = read_path(*mesh);
   read_placement(reader, body);
   if (const auto frame = reader.optional("frame")) body.frame = frame->choice<FrameMotion>();
   if (const auto correction = reader.optional("correction")) {

@@ -108,6 +108,7 @@ struct Choices<Correction> {
 struct BodySpec {
   std::string name;
   FilePath archive;
+  std::optional<FilePath> render_mesh;   ///< what trajectories show in place of the surface
   Vec3 position = Vec3::Zero();          ///< of the mesh's origin [m]
   AxisAngle rotation;                    ///< world = position + R * mesh coordinates
   Vec3 velocity = Vec3::Zero();          ///< of the centre of mass [m/s]

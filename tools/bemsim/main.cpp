@@ -22,7 +22,10 @@ void check_files(const Options& options, const bem::Scene* scene) {
   bem::FileRoles files;
   files.reads(options.scene);
   if (scene) {
-    for (const bem::BodySpec& body : scene->bodies) files.reads(body.archive.resolved);
+    for (const bem::BodySpec& body : scene->bodies) {
+      files.reads(body.archive.resolved);
+      if (body.render_mesh) files.reads(body.render_mesh->resolved);
+    }
     for (const bem::ObstacleSpec& obstacle : scene->obstacles)
       if (const auto* mesh = std::get_if<bem::MeshObstacle>(&obstacle.shape))
         files.reads(mesh->mesh.resolved);

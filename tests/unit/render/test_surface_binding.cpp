@@ -1,0 +1,74 @@
+#include "render_test.hpp"
+
+using namespace bem;
+using test::bound_points;
+using test::largest_difference;
+using test::moved;
+
+namespace {
+
+const Mat3 kTurn = Eigen::AngleAxisd(2.1, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+
+}  // namespace
+
+TEST_CASE("bound points follow rigid motions exactly, also far away") {
+  for (const test::MeshPair& pair : test::mesh_pairs()) {
+    INFO(pair.name);
+    const SurfaceBinding binding(pair.surface, pair.fine);
+    for (const double distance : {0.0, 1.0, 1e6}) {
+      const auto rigid = [&](const Vec3& x) {
+        return Vec3(kTurn * x + distance * Vec3(0.3, -1, 0.7));
+      };
+      const double error = largest_difference(bound_points(binding, pair.surface, rigid),
+                                              moved(pair.fine.vertices, rigid));
+      CHECK(error <= 4e-16 * (4 + 2 * distance));
+    }
+  }
+}
+
+TEST_CASE("bound points on the surface follow linear deformations exactly") {
+  Mat3 a;
+  a << 1.3, 0.2, -0.1, 0.05, 0.8, 0.3, -0.2, 0.1, 1.1;
+  const auto linear = [&](const Vec3& x) { return Vec3(a * x + Vec3(5, 6, 7)); };
+  for (const char* name : {"boxes", "plates"})
+    for (const test::MeshPair& pair : test::mesh_pairs()) {
+      if (pair.name != name) continue;
+      INFO(name);
+      const SurfaceBinding binding(pair.surface, pair.fine);
+      CHECK(binding.farthest() < 1e-15);
+      CHECK(largest_difference(bound_points(binding, pair.surface, linear),
+                               moved(pair.fine.vertices, linear)) < 1e-14);
+    }
+}
+
+TEST_CASE("points beside the surface follow smooth motions without folds") {
+  std::vector<test::MeshPair> pairs = test::mesh_pairs();
+  for (test::MeshPair& pair : test::wrapped_pairs()) pairs.push_back(std::move(pair));
+  for (const test::MeshPair& pair : pairs) {
+    const SurfaceBinding binding(pair.surface, pair.fine);
+    const double size = diameter(pair.surface.vertices);
+    for (const auto& [name, motion] : test::strong_motions()) {
+      INFO(pair.name << ", " << name << ", distance " << binding.farthest() / size);
+      const std::vector<Vec3> after = bound_points(binding, pair.surface, motion);
+      const double error = largest_difference(after, moved(pair.fine.vertices, motion));
+      CHECK(test::folds(pair.fine, after, motion) == 0);
+      CHECK(error <= 0.012 * size + 0.4 * binding.farthest());
+    }
+  }
+}
+
+TEST_CASE("points of a thin wall stay on their side of it") {
+  TriangleMesh surface = box({1, 1, 0.03}, {8, 8, 1});
+  const TriangleMesh wall = box({1, 1, 0.01}, {16, 16, 1});
+  for (Vec3& x : surface.vertices) x[2] += 0.013;  // its lower side is within the wall
+  TriangleMesh inside_out = wall;
+  for (Triangle& t : inside_out.triangles) std::swap(t[1], t[2]);
+  for (const TriangleMesh& bound : {wall, inside_out}) {
+    const SurfaceBinding binding(surface, bound);
+    const std::vector<Vec3> sides =  // z of the side of the surface that a point belongs to
+        binding.interpolate(surface.vertices);
+    for (std::size_t v = 0; v < wall.vertices.size(); ++v)
+      if (std::abs(wall.vertices[v][0]) < 0.4 && std::abs(wall.vertices[v][1]) < 0.4)
+        CHECK((sides[v][2] > 0.013) == (wall.vertices[v][2] > 0));
+  }
+}
