@@ -133,6 +133,13 @@ class PlaceFinder {
   std::vector<Vec3> normals_;  ///< by place, times the area around [m^2]
 };
 
+/// How much a point goes with all of the surface, by its distance over the size.
+double far_part(double distance) {
+  constexpr double kNear = 0.05, kFar = 0.15;
+  const double s = std::clamp((distance - kNear) / (kFar - kNear), 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
 Mat3 cofactor(const Mat3& f) {
   Mat3 c;
   c.col(0) = f.col(1).cross(f.col(2));
@@ -144,20 +151,24 @@ Mat3 cofactor(const Mat3& f) {
 }  // namespace
 
 SurfaceBinding::SurfaceBinding(const TriangleMesh& surface, const TriangleMesh& bound)
-    : gradients_(surface) {
+    : gradients_(surface), far_(surface) {
+  const double size = bounding_box(surface.vertices).diagonal();
   const std::vector<NearPlace> places = PlaceFinder(surface, bound).find();
   for (std::size_t i = 0; i < places.size(); ++i) {
     const NearPlace& place = places[i];
     points_.push_back({surface.triangles[place.triangle], place.nearest.weights,
                        bound.vertices[i] - place.nearest.point});
-    farthest_ = std::max(farthest_, std::sqrt(place.distance2));
+    const double distance = std::sqrt(place.distance2), part = far_part(distance / size);
+    farthest_ = std::max(farthest_, distance);
+    if (part > 0) far_points_.push_back({i, part, far_.bind(bound.vertices[i])});
   }
 }
 
 SurfacePose SurfaceBinding::pose(std::vector<Vec3> positions) const {
-  SurfacePose pose{std::move(positions), {}, {}};
+  SurfacePose pose{std::move(positions), {}, {}, {}};
   pose.gradients = gradients_.at(pose.positions);
   for (const Mat3& f : pose.gradients) pose.cofactors.push_back(cofactor(f));
+  if (!far_points_.empty()) pose.patches = far_.pose(pose.positions, pose.gradients);
   return pose;
 }
 
@@ -171,6 +182,10 @@ std::vector<Vec3> SurfaceBinding::points(const SurfacePose& pose) const {
       sum += point.weights[k] * (pose.positions[v] + pose.gradients[v] * point.offset);
     }
     out[i] = sum;
+  });
+  for_each_point(far_points_.size(), [&](std::size_t i) {
+    const FarPoint& far = far_points_[i];
+    out[far.point] += far.part * (FarBinding::position(pose.patches, far.binding) - out[far.point]);
   });
   return out;
 }

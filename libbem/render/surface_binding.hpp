@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/far_binding.hpp"
 #include "render/point_normal.hpp"
 #include "render/surface_gradients.hpp"
 
@@ -13,6 +14,7 @@ struct SurfacePose {
   std::vector<Vec3> positions;
   std::vector<Mat3> gradients;
   std::vector<Mat3> cofactors;  ///< of the gradients: they turn normals
+  FarBinding::Pose patches;
 };
 
 /// Points that go with a triangle surface, on it or not. A point x is bound to the point p of the
@@ -28,6 +30,9 @@ struct SurfacePose {
 /// side of a thin wall: a part that does not is taken instead if it is at most four times as far
 /// away. Whether a part of the points' own mesh is inside out is found by what most of it says.
 /// Points at the same place are bound in the same way.
+///
+/// Points farther away than 5 % of the diagonal of the surface's box go more and more, from 15 % on
+/// alone, with all of the surface (render/far_binding.hpp).
 class SurfaceBinding {
  public:
   /// `surface`: at rest, closed or open, at least one triangle. `bound`: the points, in the same
@@ -52,9 +57,17 @@ class SurfaceBinding {
     std::array<double, 3> weights;
     Vec3 offset;  ///< x - p [m]
   };
+  /// A point that is far away, and how much it goes with all of the surface: 0 to 1.
+  struct FarPoint {
+    std::size_t point;
+    double part;
+    FarBinding::Point binding;
+  };
 
   SurfaceGradients gradients_;
+  FarBinding far_;
   std::vector<Point> points_;
+  std::vector<FarPoint> far_points_;
   double farthest_ = 0;
 };
 

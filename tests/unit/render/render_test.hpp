@@ -48,6 +48,13 @@ inline std::vector<MeshPair> wrapped_pairs() {
            box({1, 0.6, 0.4}, {20, 13, 9})}};
 }
 
+/// Meshes that are inside of the surface and far from it.
+inline std::vector<MeshPair> inner_pairs() {
+  return {{"sphere in box", box({1, 0.6, 0.4}, {6, 4, 3}), icosphere(4, 0.19)},
+          {"small sphere in sphere", icosphere(2, 0.5), icosphere(2, 0.05)},
+          {"box in sphere", icosphere(3, 0.5), box({0.4, 0.4, 0.4}, {8, 8, 8})}};
+}
+
 inline std::vector<Vec3> moved(const std::vector<Vec3>& points, const Motion3& motion) {
   std::vector<Vec3> out;
   for (const Vec3& x : points) out.push_back(motion(x));
