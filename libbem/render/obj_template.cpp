@@ -40,6 +40,12 @@ std::array<std::string_view, 3> corner_parts(std::string_view corner) {
   return parts;
 }
 
+std::string first_line_end(std::string_view text) {
+  const std::size_t at = text.find_first_of("\r\n");
+  if (at == text.npos || text[at] == '\n') return "\n";
+  return text.substr(at, 2) == "\r\n" ? "\r\n" : "\r";
+}
+
 template <class Number>
 void append_decimal(std::string& text, Number value) {
   char buffer[40];
@@ -63,7 +69,7 @@ class ObjTemplateParser {
   ObjTemplate parse() {
     collect_normals();
     file_normals_ = static_cast<int>(out_.normals_.size());
-    if (text_.find("\r\n") != text_.npos) out_.line_end_ = "\r\n";
+    out_.line_end_ = first_line_end(text_);
     for (words_ = ObjWords(text_); words_.next();) take_statement();
     keep_until(text_.size());
     for (int& uv : out_.corner_uvs_)

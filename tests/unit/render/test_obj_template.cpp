@@ -35,13 +35,16 @@ TEST_CASE("all of an OBJ text but coordinates is kept as it is") {
 TEST_CASE("all kinds of line ends are kept") {
   for (const std::string end : {"\n", "\r", "\r\n"}) {
     INFO((end == "\n" ? "LF" : end == "\r" ? "CR" : "CR LF"));
-    const auto text = [&](const std::string& v) {
+    const auto text = [&](bool before) {
       std::string out;
       for (int k = 0; k < 3; ++k)
-        out += "v " + (v.empty() ? std::to_string(k) + " 0.5 -1" : v) + end;
-      return out + "# f 9 9 9 \\" + end + "comment" + end + "f 1 2 \\" + end + " 3" + end;
+        out += (before ? "v 9 9 \\" + end + "9" : "v " + std::to_string(k) + " 0.5 -1") + end;
+      out += before ? "vn 0 1 0" + end : "vn 0 0 0" + end + "vn 0 0 2" + end;
+      out += "# f 9 9 9 \\" + end + "comment" + end + "f 1//1 2 \\" + end;
+      return out + (before ? " 3//1" : " 3//2") + end;
     };
-    CHECK(again(text("9 9 9")) == text(""));
+    CHECK(again(text(true)) == text(false));
+    CHECK(ObjTemplate(text(true)).corner_uvs().size() == 3);
   }
   CHECK(again("\xEF\xBB\xBFv 9 9 9\nv 9 9 9\nv 9 9 9\nf 1 2 3") ==
         "\xEF\xBB\xBFv 0 0.5 -1\nv 1 0.5 -1\nv 2 0.5 -1\nf 1 2 3");
