@@ -9,7 +9,7 @@
 namespace bem {
 namespace {
 
-constexpr int kNone = -1;
+constexpr int kNoIndex = -1;
 constexpr int kMissing = -2;  ///< a number that refers to nothing
 
 double number_of(std::string_view word) {
@@ -73,7 +73,7 @@ class ObjTemplateParser {
     for (words_ = ObjWords(text_); words_.next();) take_statement();
     keep_until(text_.size());
     for (int& uv : out_.corner_uvs_)
-      if (uv >= static_cast<int>(out_.uvs_.size())) uv = kNone;
+      if (uv >= static_cast<int>(out_.uvs_.size())) uv = kNoIndex;
     return std::move(out_);
   }
 
@@ -81,7 +81,7 @@ class ObjTemplateParser {
   /// Faces may refer to those that follow.
   void collect_normals() {
     while (words_.next()) {
-      if (words_.is("vn")) out_.normals_.push_back({kNone, vector()});
+      if (words_.is("vn")) out_.normals_.push_back({kNoIndex, vector()});
       if (words_.is("v")) ++all_vertices_;
     }
   }
@@ -124,7 +124,7 @@ class ObjTemplateParser {
   }
 
   int uv_of(std::string_view word) const {
-    return word.empty() ? kNone : std::max(kNone, index_of(word, out_.uvs_.size()));
+    return word.empty() ? kNoIndex : std::max(kNoIndex, index_of(word, out_.uvs_.size()));
   }
 
   void replace_normal(const ObjWords::Range& corner, const std::array<std::string_view, 3>& parts) {
@@ -140,7 +140,7 @@ class ObjTemplateParser {
   /// The first vertex that has a normal of the file keeps its number.
   int normal_at(int vertex, int normal) {
     PointNormal& own = out_.normals_[normal];
-    if (own.point == kNone) own.point = vertex;
+    if (own.point == kNoIndex) own.point = vertex;
     if (own.point == vertex) return normal;
     const auto next = static_cast<int>(out_.normals_.size());
     const auto [pair, added] = pairs_.emplace(std::pair(vertex, normal), next);

@@ -12,14 +12,14 @@
 namespace bem {
 namespace {
 
-constexpr std::size_t kTile = 2048;  // points of a task
+constexpr std::size_t kTaskPoints = 2048;  // points of a task
 
 /// Calls body(i) for all i < n, some of them in one task.
 template <class Body>
 void for_each_point(std::size_t n, const Body& body) {
-  parallel_for((n + kTile - 1) / kTile, [&](std::size_t tile) {
-    const std::size_t end = std::min(n, (tile + 1) * kTile);
-    for (std::size_t i = tile * kTile; i < end; ++i) body(i);
+  parallel_for((n + kTaskPoints - 1) / kTaskPoints, [&](std::size_t tile) {
+    const std::size_t end = std::min(n, (tile + 1) * kTaskPoints);
+    for (std::size_t i = tile * kTaskPoints; i < end; ++i) body(i);
   });
 }
 
