@@ -5,6 +5,7 @@
 #include "mesh/triangulate.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -33,6 +34,20 @@ std::string obj_text_of(const PolygonMesh& mesh) {
     text += '\n';
   }
   return text;
+}
+
+/// What readers of other formats let through.
+void check(const PolygonMesh& mesh, const std::string& path) {
+  const int n = static_cast<int>(mesh.vertices.size());
+  const auto refuse = [&](const std::string& what) {
+    throw Error(ErrorCode::invalid_input, path + ": the mesh " + what);
+  };
+  if (mesh.face_count() == 0) refuse("has no faces that could be shown");
+  for (const Vec3& v : mesh.vertices)
+    if (!std::isfinite(4 * v.squaredNorm()))
+      refuse("has a vertex with a coordinate that is no number or too large");
+  for (int v : mesh.corners)
+    if (v < 0 || v >= n) refuse("has a face with a vertex that does not exist");
 }
 
 bool is_file(const fs::path& path) {
@@ -68,9 +83,8 @@ std::vector<std::string> RenderMesh::libraries_from(const std::string& folder) c
 
 RenderMesh read_render_mesh(const std::string& path, double scale) {
   MeshFile file = read_mesh_file(path);
-  if (file.polygons.face_count() == 0)
-    throw Error(ErrorCode::invalid_input, path + ": the mesh has no faces that could be shown");
   for (Vec3& v : file.polygons.vertices) v *= scale;
+  check(file.polygons, path);
   RenderMesh mesh;
   mesh.path = path;
   mesh.obj = ObjTemplate(file.obj.empty() ? obj_text_of(file.polygons) : file.obj);

@@ -27,7 +27,7 @@ struct RenderMesh {
 
 /// Reads a mesh file as read_mesh_file() (mesh/mesh_io.hpp) does and multiplies its coordinates.
 /// Faces that cross themselves become fans of triangles. Throws as that function, and
-/// ErrorCode::invalid_input for a mesh without faces.
+/// ErrorCode::invalid_input for a mesh without faces and for coordinates that are not finite.
 RenderMesh read_render_mesh(const std::string& path, double scale);
 
 }  // namespace bem

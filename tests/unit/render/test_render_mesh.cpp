@@ -46,6 +46,25 @@ TEST_CASE("faces that cross themselves are shown, meshes without faces are not")
       Catch::Matchers::Contains("b.obj") && Catch::Matchers::Contains("no faces"));
 }
 
+TEST_CASE("what cannot be bound is refused") {
+  const test::TemporaryFolder folder("damaged");
+  const auto refusal = [&](const std::string& x, const std::string& corner) {
+    write(folder / "a.ply",
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+          "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+          "0 0 0\n1 0 0\n1 " +
+              x + " 0\n3 0 1 " + corner + "\n");
+    return test::error_message(ErrorCode::invalid_input,
+                               [&] { read_render_mesh(folder / "a.ply", 1); });
+  };
+  CHECK_THAT(refusal("nan", "2"), Catch::Matchers::Contains("a.ply"));
+  CHECK_THAT(refusal("1", "3"), Catch::Matchers::Contains("a.ply"));
+  write(folder / "a.obj", "v 0 0 0\nv 1e200 0 0\nv 0 1 0\nf 1 2 3\n");
+  CHECK_THAT(
+      test::error_message(ErrorCode::invalid_input, [&] { read_render_mesh(folder / "a.obj", 1); }),
+      Catch::Matchers::Contains("too large"));
+}
+
 TEST_CASE("other formats become OBJ files with their UVs") {
   const test::TemporaryFolder folder("ply");
   write(folder / "a.ply",
