@@ -1,5 +1,8 @@
+#include "base/error.hpp"
 #include "mesh/obj_reader.hpp"
 #include "render/obj_template.hpp"
+
+#include <random>
 
 #include <catch2/catch.hpp>
 
@@ -17,6 +20,57 @@ std::string again(const std::string& text, const std::vector<std::string>& libra
     normals.push_back(Vec3(0, 0, 2 * double(n)));
   return obj.text(vertices, normals, libraries);
 }
+
+/// Some pieces of OBJ files in any order.
+std::string random_text(std::mt19937& random) {
+  static const std::vector<std::string> pieces{"v",
+                                               "v 1 2 3\n",
+                                               "v 4 5 6\r\n",
+                                               "vn 0 0 1\n",
+                                               "vt 1 2\n",
+                                               "f",
+                                               "f 1 2 3\n",
+                                               "f -1 -2 -3\r",
+                                               "f 1/1/1 2//1 3/1\n",
+                                               " ",
+                                               "\n",
+                                               "\r",
+                                               "\r\n",
+                                               "\\",
+                                               "\\\n",
+                                               "\\\r\n",
+                                               "\\\r",
+                                               "#",
+                                               "1",
+                                               "2",
+                                               "-1",
+                                               "3/1/1",
+                                               "2//2",
+                                               "//",
+                                               "surf 0 1 0 1 1//1 2/2/2\n",
+                                               "mtllib a b\n",
+                                               "\t"};
+  std::string text = "v 1 2 3\nv 4 5 6\nv 0 0 1\nvn 0 0 1\nvn 0 1 0\nvt 0 0\nvt 1 1\n";
+  for (auto left = random() % 14; left > 0; --left) {
+    text += pieces[random() % pieces.size()];
+    if (random() % 3 == 0) text += " ";
+  }
+  return text;
+}
+
+/// What both readers know of a text.
+struct Contents {
+  explicit Contents(const std::string& text) : mesh(parse_obj(text, "a.obj")), obj(text) {}
+  bool operator==(const Contents& other) const {
+    return mesh.vertices == other.mesh.vertices && mesh.corners == other.mesh.corners &&
+           mesh.starts == other.mesh.starts && obj.uvs() == other.obj.uvs() &&
+           obj.corner_uvs() == other.obj.corner_uvs() &&
+           obj.normals().size() == other.obj.normals().size();
+  }
+
+  PolygonMesh mesh;
+  ObjTemplate obj;
+};
 
 }  // namespace
 
@@ -103,4 +157,26 @@ TEST_CASE("coordinates read back to the same numbers") {
       {0.1, 1.0 / 3, -1e-17}, {1e300, 0.30000000000000004, 0}, {-0.0, 1234567.125, 2}};
   const PolygonMesh read = parse_obj(obj.text(vertices, {}, {}), "a.obj");
   CHECK(read.vertices == vertices);
+}
+
+TEST_CASE("every text that can be read is written with the same contents") {
+  std::mt19937 random(7);
+  int accepted = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const std::string text = random_text(random);
+    try {
+      parse_obj(text, "a.obj");
+    } catch (const Error&) {
+      continue;
+    }
+    ++accepted;
+    const Contents before(text);
+    std::vector<Vec3> normals;
+    for (const PointNormal& n : before.obj.normals()) normals.push_back(n.direction);
+    INFO(text);
+    CHECK(before.obj.corner_uvs().size() == before.mesh.corners.size());
+    CHECK(Contents(before.obj.text(before.mesh.vertices, normals, before.obj.libraries())) ==
+          before);
+  }
+  CHECK(accepted > 500);
 }
