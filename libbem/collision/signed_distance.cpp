@@ -13,8 +13,9 @@ namespace {
 class NearestTriangle {
  public:
   NearestTriangle(const BoundingTree& tree, const MovingSurface& surface, const Vec3& p)
-      : tree_(tree), surface_(surface), p_(p) {
-    visit(0);
+      : surface_(surface), p_(p) {
+    auto look = [this](int triangle) { look_at(triangle); };
+    visit_near(tree, 0, p, nearest_, look);
   }
 
   double signed_distance() const {
@@ -29,29 +30,16 @@ class NearestTriangle {
   }
 
  private:
-  void visit(int index) {
-    const BoundingTree::Node& node = tree_.nodes()[index];
-    if (squared_distance({p_, p_}, node.box) >= nearest_) return;
-    if (!node.leaf()) {
-      const int first = index + 1;
-      const bool ahead = squared_distance({p_, p_}, tree_.nodes()[first].box) <=
-                         squared_distance({p_, p_}, tree_.nodes()[node.right].box);
-      visit(ahead ? first : node.right);
-      visit(ahead ? node.right : first);
-      return;
-    }
-    for (int i = node.begin; i < node.end; ++i) {
-      const auto [a, b, c] = surface_.triangle(tree_.order()[i], 0);
-      const NearestPoint closest = closest_on_triangle(p_, a, b, c);
-      const double distance = (p_ - closest.point).squaredNorm();
-      if (distance >= nearest_ || unit_normal(a, b, c).isZero(0)) continue;
-      nearest_ = distance;
-      closest_ = closest;
-      triangle_ = tree_.order()[i];
-    }
+  void look_at(int triangle) {
+    const auto [a, b, c] = surface_.triangle(triangle, 0);
+    const NearestPoint closest = closest_on_triangle(p_, a, b, c);
+    const double distance = (p_ - closest.point).squaredNorm();
+    if (distance >= nearest_ || unit_normal(a, b, c).isZero(0)) return;
+    nearest_ = distance;
+    closest_ = closest;
+    triangle_ = triangle;
   }
 
-  const BoundingTree& tree_;
   const MovingSurface& surface_;
   const Vec3& p_;
   double nearest_ = std::numeric_limits<double>::infinity();

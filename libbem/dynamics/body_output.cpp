@@ -43,7 +43,7 @@ std::vector<Vec3> BodyOutput::positions() const {
   return out;
 }
 
-std::vector<Vec3> BodyOutput::tractions() const {
+std::vector<Vec3> BodyOutput::node_tractions() const {
   const BodyGeometry& g = body_.model().geometry;
   Eigen::Matrix3Xd nodal =
       Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(g.nodes.vertices.size()));
@@ -52,8 +52,16 @@ std::vector<Vec3> BodyOutput::tractions() const {
   if (!body_.is_rigid() && !body_.step().frame.rotation.empty())
     body_.elastic()->add_nodal_tractions(body_.step().nodal_forces(), nodal);
   std::vector<Vec3> out;
-  for (int node : g.node_of_vertex)
-    out.push_back(node < 0 ? Vec3(Vec3::Zero()) : Vec3(body_.frame().rotation() * nodal.col(node)));
+  for (Eigen::Index node = 0; node < nodal.cols(); ++node)
+    out.emplace_back(body_.frame().rotation() * nodal.col(node));
+  return out;
+}
+
+std::vector<Vec3> BodyOutput::tractions() const {
+  const std::vector<Vec3> nodal = node_tractions();
+  std::vector<Vec3> out;
+  for (int node : body_.model().geometry.node_of_vertex)
+    out.push_back(node < 0 ? Vec3(Vec3::Zero()) : nodal[node]);
   return out;
 }
 

@@ -15,6 +15,8 @@ class BodyOutput {
   /// World tractions [Pa] at the input mesh's vertices: prescribed loads (averaged over the
   /// triangles around a vertex) and the forces of constraints.
   std::vector<Vec3> tractions() const;
+  /// The same at the nodes.
+  std::vector<Vec3> node_tractions() const;
   /// Impulses of gravity, loads and window in the step that Body::update() has computed.
   Impulses impulses() const;
 

@@ -44,6 +44,16 @@ std::vector<char> vertices_of_surface(const aiMesh& part) {
   return kept;
 }
 
+/// Appends texture coordinates of all vertices and returns the index of the first, -1 if there are
+/// none.
+int append_uvs(const aiMesh& part, PolygonMesh& mesh) {
+  if (!part.HasTextureCoords(0)) return -1;
+  const int first = static_cast<int>(mesh.uvs.size());
+  for (unsigned v = 0; v < part.mNumVertices; ++v)
+    mesh.uvs.push_back({part.mTextureCoords[0][v].x, part.mTextureCoords[0][v].y});
+  return first;
+}
+
 /// Appends the vertices that are kept and returns the index of each.
 std::vector<int> append_vertices(const aiMesh& part, const Mat3& linear, const Vec3& shift,
                                  PolygonMesh& mesh) {
@@ -65,6 +75,7 @@ void append_mesh(const aiMesh& part, const Eigen::Matrix4d& transform, PolygonMe
   const Mat3 linear = transform.topLeftCorner<3, 3>();
   const std::vector<int> index =
       append_vertices(part, linear, transform.topRightCorner<3, 1>(), mesh);
+  const int first_uv = append_uvs(part, mesh);
   // A mirroring transform turns counter-clockwise into clockwise.
   const bool mirrored = linear.determinant() < 0;
   for (unsigned f = 0; f < part.mNumFaces; ++f) {
@@ -73,7 +84,9 @@ void append_mesh(const aiMesh& part, const Eigen::Matrix4d& transform, PolygonMe
     if (n < 3) continue;
     for (unsigned k = 0; k < n; ++k) {
       const unsigned v = face.mIndices[mirrored ? (n - k) % n : k];
-      mesh.corners.push_back(v < index.size() ? index[v] : -1);
+      const bool exists = v < index.size();
+      mesh.corners.push_back(exists ? index[v] : -1);
+      mesh.corner_uvs.push_back(exists && first_uv >= 0 ? first_uv + static_cast<int>(v) : -1);
     }
     mesh.end_face();
   }
@@ -118,11 +131,11 @@ void join_soup(PolygonMesh& mesh) {
 
 PolygonMesh import(const std::string& path) {
   Assimp::Importer importer;
-  importer.SetPropertyInteger(
-      AI_CONFIG_PP_RVC_FLAGS,
-      aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
-          aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
-          aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
+                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                  aiComponent_COLORS | aiComponent_BONEWEIGHTS |
+                                  aiComponent_ANIMATIONS | aiComponent_TEXTURES |
+                                  aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
   const aiScene* scene =
       importer.ReadFile(path, aiProcess_ValidateDataStructure | aiProcess_RemoveComponent);
   if (scene == nullptr || scene->mRootNode == nullptr)
@@ -163,6 +176,8 @@ std::string import_to_bytes(const std::string& path) {
     append_raw(bytes, mesh.vertices);
     append_raw(bytes, mesh.corners);
     append_raw(bytes, mesh.starts);
+    append_raw(bytes, mesh.uvs);
+    append_raw(bytes, mesh.corner_uvs);
     return bytes;
   } catch (const std::bad_alloc&) {
     return kCause + std::string("it asks for more memory than there is");
@@ -214,6 +229,8 @@ PolygonMesh read_with_assimp(const std::string& path) {
   take_raw(result.output, position, mesh.vertices);
   take_raw(result.output, position, mesh.corners);
   take_raw(result.output, position, mesh.starts);
+  take_raw(result.output, position, mesh.uvs);
+  take_raw(result.output, position, mesh.corner_uvs);
   require(!mesh.starts.empty() && mesh.starts.back() == mesh.corners.size(),
           "the reader process sends a whole mesh");
   return mesh;

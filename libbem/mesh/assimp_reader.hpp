@@ -7,7 +7,8 @@
 namespace bem {
 
 /// Reads the geometry of any format that assimp knows: all meshes of the scene with their node
-/// transforms applied, faces with the corners that the file gives them, points and lines left out.
+/// transforms applied, faces with the corners that the file gives them, points and lines left out,
+/// and the first set of texture coordinates.
 /// Coordinates pass through float32. An indexed mesh keeps its vertices in their order; where every
 /// face has vertices of its own (STL, COLLADA) equal positions are joined.
 ///

@@ -78,6 +78,24 @@ void visit_self_overlaps(const BoundingTree& tree, int p, Visit& visit) {
   }
 }
 
+/// Calls visit(t) for all triangles t below node `index` that are in leaves nearer to p than
+/// the square root of `nearest` [m^2], which visit() may lower. Near ones mostly come first.
+template <typename Visit>
+void visit_near(const BoundingTree& tree, int index, const Vec3& p, const double& nearest,
+                Visit& visit) {
+  const BoundingTree::Node& node = tree.nodes()[index];
+  const auto distance2 = [&](int i) { return squared_distance({p, p}, tree.nodes()[i].box); };
+  if (distance2(index) >= nearest) return;
+  if (node.leaf()) {
+    for (int i = node.begin; i < node.end; ++i) visit(tree.order()[i]);
+    return;
+  }
+  const int first = index + 1;
+  const bool ahead = distance2(first) <= distance2(node.right);
+  visit_near(tree, ahead ? first : node.right, p, nearest, visit);
+  visit_near(tree, ahead ? node.right : first, p, nearest, visit);
+}
+
 /// The pairs of boxes that overlap, first < second, sorted. O((n + pairs) log n), wherever they
 /// are.
 std::vector<std::pair<int, int>> overlapping_pairs(const std::vector<BoundingBox>& boxes);

@@ -53,19 +53,24 @@ std::string read_text(const std::string& path, std::size_t most) {
   return text;
 }
 
-PolygonMesh read_polygons(const std::string& path) {
+}  // namespace
+
+MeshFile read_mesh_file(const std::string& path) {
   constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   constexpr std::size_t kHead = 4000;
   const std::string extension = lower_extension(path);
   const bool own = extension == ".obj" || extension == ".off";
   check_file(path, own);
-  const std::string text = read_text(path, own ? kAll : kHead);
+  std::string text = read_text(path, own ? kAll : kHead);
   if (const std::string format = unreadable_format(text); !format.empty())
     throw Error(ErrorCode::invalid_input, unsupported_text(path, format));
-  if (extension == ".obj") return parse_obj(text, path);
-  if (extension == ".off") return parse_off(text, path);
-  return read_with_assimp(path);
+  if (extension == ".off") return {parse_off(text, path), ""};
+  if (extension != ".obj") return {read_with_assimp(path), ""};
+  PolygonMesh polygons = parse_obj(text, path);
+  return {std::move(polygons), std::move(text)};
 }
+
+namespace {
 
 void append_number(std::string& text, double value) {
   char buffer[40];
@@ -75,7 +80,7 @@ void append_number(std::string& text, double value) {
 }  // namespace
 
 TriangleMesh read_mesh(const std::string& path) {
-  return triangulate(read_polygons(path), path);
+  return triangulate(read_mesh_file(path).polygons, path);
 }
 
 std::string obj_text(const TriangleMesh& mesh) {

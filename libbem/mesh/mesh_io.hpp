@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesh/polygon_mesh.hpp"
 #include "mesh/triangle_mesh.hpp"
 
 #include <string>
@@ -19,6 +20,16 @@ namespace bem {
 /// or cannot be understood (the message names the file, for OBJ and OFF also the line), and
 /// ErrorCode::resources if it exists but must not be read. Calls check_interruption() all the time.
 TriangleMesh read_mesh(const std::string& path);
+
+/// What is read of a file before its faces are cut.
+struct MeshFile {
+  PolygonMesh polygons;
+  std::string obj;  ///< the text of an OBJ file; empty for other formats
+};
+
+/// The faces of a file as it has them, read as read_mesh() does. Texture coordinates of OBJ files
+/// are in their text alone (render/obj_template.hpp).
+MeshFile read_mesh_file(const std::string& path);
 
 /// What an OBJ file of the mesh says. Coordinates are the shortest decimals that read back to the
 /// same double.

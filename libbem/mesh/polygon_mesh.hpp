@@ -2,6 +2,7 @@
 
 #include "base/types.hpp"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -14,6 +15,10 @@ struct PolygonMesh {
   std::vector<int> corners;            ///< vertex indices of all faces, one face after the other
   std::vector<std::size_t> starts{0};  ///< face f has the corners starts[f] .. starts[f + 1] - 1
   std::vector<int> lines;              ///< line of each face in a text file, or empty
+  /// Texture coordinates and for each of the corners the index of its own, -1 for one without; both
+  /// may be empty.
+  std::vector<std::array<float, 2>> uvs = {};
+  std::vector<int> corner_uvs = {};
 
   std::size_t face_count() const { return starts.size() - 1; }
   std::size_t corner_count(std::size_t face) const { return starts[face + 1] - starts[face]; }

@@ -40,8 +40,8 @@ void append_fan(const int* face, std::size_t corners, std::vector<Triangle>& tri
 
 class Triangulation {
  public:
-  Triangulation(PolygonMesh mesh, const std::string& source)
-      : mesh_(std::move(mesh)), source_(source) {
+  Triangulation(PolygonMesh mesh, const std::string& source, CrossingFaces crossing)
+      : mesh_(std::move(mesh)), source_(source), crossing_(crossing) {
     std::vector<int> all(mesh_.vertices.size());
     std::iota(all.begin(), all.end(), 0);
     position_ = first_at_position(mesh_.vertices, std::move(all));
@@ -88,6 +88,8 @@ class Triangulation {
       return append_fan(mesh_.face(f), mesh_.corner_count(f), triangles_);
     if (corners.size() == 3) return append_fan(corners.data(), 3, triangles_);
     const FaceTriangles face = cut(corners);
+    if (face.crosses_itself() && crossing_ == CrossingFaces::fan)
+      return append_fan(corners.data(), corners.size(), triangles_);
     if (face.crosses_itself()) refuse(f, corners);
     for (const Triangle& t : face.triangles())
       triangles_.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
@@ -157,6 +159,7 @@ class Triangulation {
 
   PolygonMesh mesh_;
   const std::string& source_;
+  CrossingFaces crossing_;
   std::vector<int> position_;  ///< of each vertex, the first one that is where it is
   std::vector<Triangle> triangles_;
   std::vector<std::size_t> first_triangle_;  ///< of each face, and the number of all
@@ -166,9 +169,9 @@ class Triangulation {
 
 }  // namespace
 
-TriangleMesh triangulate(PolygonMesh polygons, const std::string& source) {
+TriangleMesh triangulate(PolygonMesh polygons, const std::string& source, CrossingFaces crossing) {
   if (!has_only_triangles(polygons) && can_be_measured(polygons))
-    return Triangulation(std::move(polygons), source).run();
+    return Triangulation(std::move(polygons), source, crossing).run();
   TriangleMesh mesh;
   for (std::size_t f = 0; f < polygons.face_count(); ++f)
     append_fan(polygons.face(f), polygons.corner_count(f), mesh.triangles);

@@ -1,6 +1,7 @@
 #include "output/frame.hpp"
 
 #include "base/error.hpp"
+#include "render/render_mesh.hpp"
 
 #include <set>
 
@@ -32,6 +33,9 @@ void check_frame(const std::vector<TrajectoryBody>& bodies, const Frame& frame) 
             "a frame holds the position of every vertex");
     require(!bodies[i].tractions || frame.bodies[i].tractions.size() == bodies[i].vertices,
             "a frame holds the traction of every vertex");
+    require(!bodies[i].render ||
+                frame.bodies[i].normals.size() == bodies[i].render->obj.normals().size(),
+            "a frame holds every normal of a render mesh");
   }
 }
 

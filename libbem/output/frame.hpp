@@ -4,27 +4,40 @@
 #include "output/file_record.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace bem {
 
+struct RenderMesh;
+
+/// What a body of a trajectory is of.
+enum class TrajectorySurface {
+  only,       ///< the simulated surface, which is the one that there is
+  render,     ///< a mesh that is bound to the simulated surface
+  simulation  ///< the simulated surface of a body that has a render mesh
+};
+
 /// What stays the same about a body in all frames of a trajectory.
 struct TrajectoryBody {
   std::string name;                 ///< unique; fit to be part of a file name and of an HDF5 path
-  std::size_t vertices = 0;         ///< of the input mesh
-  std::vector<Triangle> triangles;  ///< of the input mesh, as it lists them
+  std::size_t vertices = 0;         ///< of the input mesh, or of the render mesh
+  std::vector<Triangle> triangles;  ///< of this mesh, as it lists them
   bool tractions = false;           ///< frames bring tractions that are to be written
-  std::vector<Vec3> rest = {};      ///< vertices of the input mesh [m]; some formats need them
+  std::vector<Vec3> rest = {};      ///< vertices of this mesh [m]; some formats need them
+  TrajectorySurface surface = TrajectorySurface::only;
+  std::shared_ptr<const RenderMesh> render = nullptr;  ///< for TrajectorySurface::render
 };
 
 /// One body at one time.
 struct BodyFrame {
-  std::vector<Vec3> positions;       ///< by vertex of the input mesh [m, world]
+  std::vector<Vec3> positions;       ///< by vertex of the body's mesh [m, world]
   Vec3 translation = Vec3::Zero();   ///< of the body's frame [m]:
   Mat3 rotation = Mat3::Identity();  ///< world = translation + rotation * frame coordinates
   std::vector<Vec3> tractions;       ///< by vertex [Pa, world]; unused without the body's flag
+  std::vector<Vec3> normals = {};    ///< unit vectors, by normal of a render mesh's ObjTemplate
 };
 
 /// All bodies at one time.

@@ -150,6 +150,10 @@ void Hdf5Trajectory::create_contents() {
     create_series(path + "/frame/translation", {3}, "m");
     create_series(path + "/frame/rotation", {3, 3}, "1");
     if (body.tractions) create_series(path + "/tractions", {body.vertices, 3}, "Pa");
+    if (body.surface != TrajectorySurface::only)
+      file_.set_attribute(
+          path, kSurfaceAttribute,
+          body.surface == TrajectorySurface::render ? kRenderSurface : "simulation");
   }
   std::rotate(series_.begin(), series_.begin() + 1, series_.end());
   file_.start_swmr();  // which hands all of it to the system

@@ -26,7 +26,8 @@ inline constexpr const char* kTrajectoryFile = "trajectory.h5";
 ///   /bodies/NAME/frame/rotation      [frames, 3, 3]  float64  world = translation + rotation x
 ///   /bodies/NAME/tractions           [frames, N, 3]  float64  Pa, world; where asked for
 ///
-/// each with its unit as the attribute "units".
+/// each with its unit as the attribute "units". Where a body has a render mesh, its group has an
+/// attribute "surface": "render", or "simulation" for the simulated surface beside it.
 ///
 /// Other processes can read the file while it is written, if they open it for that (h5py:
 /// swmr=True); a frame is complete when /time has it. The same way opens a file whose writer was

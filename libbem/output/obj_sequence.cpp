@@ -1,7 +1,6 @@
 #include "output/obj_sequence.hpp"
 
 #include "base/error.hpp"
-#include "mesh/mesh_io.hpp"
 
 namespace bem {
 
@@ -9,15 +8,15 @@ ObjSequence::ObjSequence(const std::string& directory, const std::vector<Traject
                          std::size_t kept)
     : bodies_((check_bodies(bodies), bodies)), files_(directory, kObjFolder, kObjExtension, kept) {
   records_ = FrameFiles::no_records(kObjFolder, bodies_, kObjExtension);
-  for (const TrajectoryBody& body : bodies_) meshes_.push_back({{}, body.triangles});
+  for (const TrajectoryBody& body : bodies_) texts_.emplace_back(body, files_.folder());
 }
 
 void ObjSequence::write(const Frame& frame) {
   check_frame(bodies_, frame);
   require(frame.index == files_.frames(), "frames are written in their order");
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    meshes_[i].vertices = frame.bodies[i].positions;
-    files_.write(bodies_[i].name, obj_text(meshes_[i]), records_[i]);
+    const BodyFrame& body = frame.bodies[i];
+    files_.write(bodies_[i].name, texts_[i].text(body.positions, body.normals), records_[i]);
   }
   files_.end_frame();
 }

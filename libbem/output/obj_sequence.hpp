@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/triangle_mesh.hpp"
+#include "output/body_obj.hpp"
 #include "output/frame.hpp"
 #include "output/frame_files.hpp"
 
@@ -16,9 +16,8 @@ inline constexpr const char* kObjFolder = "obj";
 /// Extension of the frames.
 inline constexpr const char* kObjExtension = ".obj";
 
-/// Writes OUT_DIR/obj/NAME_000000.obj, one file for each body and frame: vertices and faces of the
-/// input mesh in their order, world coordinates [m] as the shortest decimals that read back to the
-/// same double. A file appears under its name when it is complete.
+/// Writes OUT_DIR/obj/NAME_000000.obj, one file for each body and frame, in world coordinates [m]
+/// (output/body_obj.hpp). A file appears under its name when it is complete.
 class ObjSequence : public FrameWriter {
  public:
   /// Creates the folder in an existing directory. Throws ErrorCode::resources.
@@ -38,8 +37,8 @@ class ObjSequence : public FrameWriter {
 
  private:
   std::vector<TrajectoryBody> bodies_;
-  std::vector<TriangleMesh> meshes_;  ///< by body; the vertices are those of the last frame
   FrameFiles files_;
+  std::vector<BodyObj> texts_;  ///< by body
 };
 
 }  // namespace bem

@@ -2,8 +2,9 @@
 
 #include "base/error.hpp"
 #include "files/file_io.hpp"
-#include "mesh/mesh_io.hpp"
+#include "output/body_obj.hpp"
 #include "output/frame_files.hpp"
+#include "render/render_mesh.hpp"
 
 #include <cerrno>
 #include <cstdint>
@@ -99,10 +100,13 @@ PointCache::PointCache(const std::string& directory, const std::vector<Trajector
 void PointCache::write_meshes(const Frame& first) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyFrame& start = first.bodies[i];
-    TriangleMesh mesh{{}, bodies_[i].triangles};
+    std::vector<Vec3> places, normals;
     for (const Vec3& x : bodies_[i].rest)
-      mesh.vertices.push_back(start.translation + start.rotation * x);
-    const std::string text = obj_text(mesh);
+      places.emplace_back(start.translation + start.rotation * x);
+    if (bodies_[i].render)
+      for (const PointNormal& n : bodies_[i].render->obj.normals())
+        normals.emplace_back(start.rotation * n.direction.normalized());
+    const std::string text = BodyObj(bodies_[i], folder_).text(places, normals);
     publish(folder_ + "/" + bodies_[i].name + kPointCacheMeshExtension, text);
     records_[2 * i + 1].add(text);
   }

@@ -16,7 +16,7 @@ inline constexpr const char* kPointCacheMeshExtension = ".obj";
 
 /// Writes OUT_DIR/pc2/NAME.pc2 for each body, a Point Cache 2 as Blender and Houdini read it, and
 /// OUT_DIR/pc2/NAME.obj, the mesh that it moves: the rest shape where the body's frame is in frame
-/// 0, vertices and faces of the input mesh in their order.
+/// 0 (output/body_obj.hpp).
 ///
 ///   char[12] "POINTCACHE2\0", int32 version 1, int32 vertices, float32 first frame 0,
 ///   float32 sampling 1 (sample k is frame k), int32 samples; then by sample and vertex

@@ -38,6 +38,16 @@ void TrajectoryFile::check_finite(const std::string& path, const double* numbers
     throw Error(file_.error(), file_.path() + ": " + path + " has a number that is not finite");
 }
 
+bool TrajectoryFile::has_body(const std::string& body) const {
+  return file_.exists("/bodies/" + body);
+}
+
+bool TrajectoryFile::is_render_mesh(const std::string& body) const {
+  const std::string group = "/bodies/" + body;
+  return has_body(body) && file_.has_attribute(group, kSurfaceAttribute) &&
+         file_.string_attribute(group, kSurfaceAttribute) == kRenderSurface;
+}
+
 std::size_t TrajectoryFile::vertices(const std::string& body) const {
   const Hdf5Dims dims = file_.dims(series(body, "/positions"));
   return dims.size() == 3 ? dims[1] : 0;

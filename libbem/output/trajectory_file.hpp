@@ -9,6 +9,11 @@
 
 namespace bem {
 
+/// Attribute of a body's group in trajectories with render meshes, and its value for these; that of
+/// simulated surfaces beside them is "simulation".
+inline constexpr const char* kSurfaceAttribute = "surface";
+inline constexpr const char* kRenderSurface = "render";
+
 /// A trajectory.h5 (output/hdf5_trajectory.hpp) that is read back. Structure, types and extents are
 /// checked before anything is read, and that numbers are finite when they are. Everything throws
 /// Error with the code that it was opened with and a message that names file and place.
@@ -20,6 +25,9 @@ class TrajectoryFile {
   const std::string& path() const { return file_.path(); }
   const std::vector<double>& times() const { return times_; }  ///< of the frames, ascending [s]
   std::size_t body_count() const { return file_.children("/bodies").size(); }
+  bool has_body(const std::string& body) const;
+  /// Is it a render mesh, not the simulated surface?
+  bool is_render_mesh(const std::string& body) const;
   std::size_t vertices(const std::string& body) const;
   bool has_tractions(const std::string& body) const;
   /// Vertex indices.

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "mesh/describe.hpp"
+#include "render/render_mesh.hpp"
 
 #include <cstdint>
 
@@ -41,10 +42,15 @@ std::vector<Vec3> deformation(const std::vector<Vec3>& rest, const BodyFrame& st
   return out;
 }
 
-/// Where each triangle ends in the list of corners.
-std::vector<std::int32_t> triangle_ends(std::size_t triangles) {
+std::size_t face_count(const TrajectoryBody& body) {
+  return body.render ? body.render->face_count() : body.triangles.size();
+}
+
+/// Where each face ends in the list of corners.
+std::vector<std::int32_t> face_ends(const TrajectoryBody& body) {
   std::vector<std::int32_t> ends;
-  for (std::size_t t = 1; t <= triangles; ++t) ends.push_back(static_cast<std::int32_t>(3 * t));
+  for (std::size_t f = 1; f <= face_count(body); ++f)
+    ends.push_back(static_cast<std::int32_t>(body.render ? body.render->starts[f] : 3 * f));
   return ends;
 }
 
@@ -74,13 +80,15 @@ std::string VtpSequence::contents_of(std::size_t body, const BodyFrame& state, d
       "<Piece NumberOfPoints=\"" +
       std::to_string(b.vertices) +
       "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-      std::to_string(b.triangles.size()) + "\">\n";
+      std::to_string(face_count(b)) + "\">\n";
   xml += "<PointData Vectors=\"deformation\">\n" +
          data.add("Float64", "deformation", 3, deformation(b.rest, state));
   if (b.tractions) xml += data.add("Float64", "tractions", 3, state.tractions);
   xml += "</PointData>\n<Points>\n" + data.add("Float64", "Points", 3, state.positions);
-  xml += "</Points>\n<Polys>\n" + data.add("Int32", "connectivity", 1, b.triangles) +
-         data.add("Int32", "offsets", 1, triangle_ends(b.triangles.size()));
+  xml += "</Points>\n<Polys>\n" +
+         (b.render ? data.add("Int32", "connectivity", 1, b.render->corners)
+                   : data.add("Int32", "connectivity", 1, b.triangles)) +
+         data.add("Int32", "offsets", 1, face_ends(b));
   xml += "</Polys>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
   return xml + data.bytes() + "\n</AppendedData>\n</VTKFile>\n";
 }

@@ -133,6 +133,7 @@ BodySpec read_body(const JsonValue& value) {
   body.location = value.location();
   body.name = read_name(reader.required("name"));
   read_model(reader, body);
+  if (const auto mesh = reader.optional("render_mesh")) body.render_mesh = read_path(*mesh);
   read_placement(reader, body);
   if (const auto frame = reader.optional("frame")) body.frame = frame->choice<FrameMotion>();
   if (const auto correction = reader.optional("correction")) {

@@ -122,6 +122,7 @@ struct BodySpec {
   /// (simulation/scene_preparation.hpp).
   FilePath archive;
   std::optional<BodySource> source;
+  std::optional<FilePath> render_mesh;   ///< what trajectories show in place of the surface
   Vec3 position = Vec3::Zero();          ///< of the mesh's origin [m]
   AxisAngle rotation;                    ///< world = position + R * mesh coordinates
   Vec3 velocity = Vec3::Zero();          ///< of the centre of mass [m/s]

@@ -128,6 +128,8 @@ OutputSpec read_output(const JsonValue& value) {
     output.every = every->integer_in(1, std::numeric_limits<int>::max());
   if (const auto fields = reader.optional("fields"))
     output.fields = fields->choices<OutputField>("array of fields");
+  if (const auto surface = reader.optional("surface"))
+    output.surface = surface->choice<OutputSurface>();
   reader.finish();
   return output;
 }

@@ -88,13 +88,30 @@ struct Choices<OutputField> {
       {{OutputField::positions, "positions"}, {OutputField::tractions, "tractions"}}};
 };
 
+/// Which surface of a body with a render mesh is written.
+enum class OutputSurface { render, simulation, both };
+
+template <>
+struct Choices<OutputSurface> {
+  static constexpr std::array<Choice<OutputSurface>, 3> all = {
+      {{OutputSurface::render, "render"},
+       {OutputSurface::simulation, "simulation"},
+       {OutputSurface::both, "both"}}};
+};
+
 struct OutputSpec {
   /// Each at most once, at least one.
   std::vector<const OutputFormat*> formats = {find_output_format("hdf5")};
   int every = 1;                                               ///< steps from frame to frame, >= 1
   std::vector<OutputField> fields = {OutputField::positions};  ///< each at most once
+  OutputSurface surface = OutputSurface::render;
   Location location;
 };
+
+/// The name in trajectories of the simulated surface of a body whose render mesh has its own.
+inline std::string simulation_name(const std::string& body) {
+  return body + "-simulation";
+}
 
 struct Scene {
   double time_step = 0;          ///< [s], > 0; 0 until an automatic one is chosen

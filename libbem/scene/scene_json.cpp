@@ -21,6 +21,17 @@ class NamesInUse {
                        first->second);
   }
 
+  /// Those that trajectories need in addition must be free.
+  void check_simulation_names(const std::vector<BodySpec>& bodies) const {
+    for (const BodySpec& body : bodies) {
+      const auto taken = first_.find(simulation_name(body.name));
+      if (body.render_mesh && taken != first_.end())
+        throw error_at(body.location, "the simulated surface of the body " + in_quotes(body.name) +
+                                          " would be written as " + in_quotes(taken->first) +
+                                          ", which is already used at " + taken->second);
+    }
+  }
+
  private:
   std::map<std::string, std::string> first_;
 };
@@ -65,6 +76,7 @@ Scene scene_from(const JsonDocument& document) {
   }
   if (const auto contact = reader.optional("contact")) scene.contact = read_contact(*contact);
   if (const auto output = reader.optional("output")) scene.output = read_output(*output);
+  if (scene.output.surface == OutputSurface::both) names.check_simulation_names(scene.bodies);
   reader.finish();
   return scene;
 }

@@ -53,6 +53,7 @@ std::string with_names(std::string schema) {
   list_names(schema, "FrictionMethod", choice_names<FrictionMethod>());
   list_names(schema, "OutputFormat", output_format_names());
   list_names(schema, "OutputField", choice_names<OutputField>());
+  list_names(schema, "OutputSurface", choice_names<OutputSurface>());
   return schema;
 }
 
@@ -186,6 +187,7 @@ const std::string& scene_schema() {
         "mesh_scale": {"description": "Factor on the coordinates of the mesh; default 1.", "type": "number", "exclusiveMinimum": 0},
         "precompute": {"$ref": "#/$defs/precompute"},
         "archive": {"description": "Matrix archive written by bemprecomp.", "$ref": "#/$defs/path"},
+        "render_mesh": {"description": "Mesh that trajectories show in place of the simulated surface, which moves it; default none.", "$ref": "#/$defs/path"},
         "position": {"description": "World position of the mesh's origin [m]; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
         "rotation": {"description": "World = position + R * mesh coordinates; default none.", "$ref": "#/$defs/rotation"},
         "velocity": {"description": "Of the centre of mass [m/s]; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
@@ -299,7 +301,8 @@ const std::string& scene_schema() {
       "properties": {
         "formats": {"description": "Default [\"hdf5\"].", "type": "array", "minItems": 1, "uniqueItems": true, "items": {"enum": "OutputFormat"}},
         "every": {"description": "Steps from one written frame to the next; default 1.", "type": "integer", "minimum": 1, "maximum": 2147483647},
-        "fields": {"description": "Positions are always written; default [\"positions\"].", "type": "array", "minItems": 1, "uniqueItems": true, "items": {"enum": "OutputField"}}
+        "fields": {"description": "Positions are always written; default [\"positions\"].", "type": "array", "minItems": 1, "uniqueItems": true, "items": {"enum": "OutputField"}},
+        "surface": {"description": "What is written of bodies with a render mesh: it, the simulated surface, or both, the latter as NAME-simulation; default render.", "enum": "OutputSurface"}
       }
     }
   }

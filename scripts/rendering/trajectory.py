@@ -48,7 +48,7 @@ def load(path, select, with_tractions):
         times = _dataset(file, "/time", 1)
         if "bodies" not in file or not isinstance(file["bodies"], h5py.Group):
             raise InvalidInput(f"{path}: no group /bodies; is this a trajectory?")
-        names = list(file["bodies"])
+        names = [name for name, body in file["bodies"].items() if not _is_beside_render_mesh(body)]
         if not names:
             raise InvalidInput(f"{path}: /bodies is empty")
         # A run that is still going may have written one body's frame and not yet the next one's.
@@ -61,6 +61,11 @@ def load(path, select, with_tractions):
         indices = np.asarray(select(seconds))
         bodies = [_load_body(file, name, indices, with_tractions) for name in names]
     return Trajectory(seconds[indices], indices, bodies)
+
+
+def _is_beside_render_mesh(body):
+    """The simulated surface of a body that is drawn by its render mesh."""
+    return body.attrs.get("surface") in ("simulation", b"simulation")
 
 
 def _open(path):

@@ -78,6 +78,18 @@ class Obstacles(unittest.TestCase):
                 self.load(broken)
 
 
+class Surfaces(unittest.TestCase):
+    def test_simulated_surfaces_beside_render_meshes_are_not_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "t.h5"
+            write_trajectory(path, {name: [box(0, 1)] for name in ("a", "a-simulation", "b", "b-simulation")})
+            with h5py.File(path, "a") as file:
+                file["bodies/a"].attrs["surface"] = "render"
+                file["bodies/a-simulation"].attrs["surface"] = "simulation"
+            drawn = trajectory.load(path, trajectory.select_frames, False).bodies
+        self.assertEqual([body.name for body in drawn], ["a", "b", "b-simulation"])
+
+
 class Pictures(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -35,7 +35,10 @@ int run(int argc, char** argv) {
   bem::FileRoles files;
   files.reads(scene_file);
   files.reads(trajectory_file);
-  for (const bem::BodySpec& body : scene.bodies) files.reads(body.archive.resolved);
+  for (const bem::BodySpec& body : scene.bodies) {
+    files.reads(body.archive.resolved);
+    if (body.render_mesh) files.reads(body.render_mesh->resolved);
+  }
   for (const bem::ObstacleSpec& obstacle : scene.obstacles)
     if (const auto* mesh = std::get_if<bem::MeshObstacle>(&obstacle.shape))
       files.reads(mesh->mesh.resolved);

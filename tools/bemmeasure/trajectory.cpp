@@ -19,11 +19,22 @@ std::vector<Triangle> outward(TriangleMesh mesh, const std::string& path) {
 Trajectory::Trajectory(const std::string& path, const Scene& scene)
     : file_(path, ErrorCode::archive) {
   for (const BodySpec& body : scene.bodies) {
-    names_.push_back(body.name);
-    triangles_.push_back(file_.faces(body.name));
+    names_.push_back(simulated(body.name));
+    triangles_.push_back(file_.faces(names_.back()));
     // Outward, whatever the file of the mesh said.
     if (!times().empty()) triangles_.back() = outward(this->body(names_.size() - 1, 0), path);
   }
+}
+
+/// The name under which the trajectory has the simulated surface of a body.
+std::string Trajectory::simulated(const std::string& body) const {
+  if (!file_.is_render_mesh(body)) return body;
+  if (!file_.has_body(simulation_name(body)))
+    throw Error(ErrorCode::archive,
+                file_.path() + ": of the body " + in_quotes(body) +
+                    " it has the render mesh alone, and only simulated surfaces can be measured: "
+                    "write them with \"output\": {\"surface\": \"both\"}");
+  return simulation_name(body);
 }
 
 TriangleMesh Trajectory::body(std::size_t b, std::size_t k) const {

@@ -12,7 +12,8 @@ namespace bem {
 /// A trajectory.h5 of a scene, frame by frame.
 class Trajectory {
  public:
-  /// Throws ErrorCode::archive if the file is not a trajectory of the scene's bodies.
+  /// Throws ErrorCode::archive if the file is not a trajectory of the scene's bodies, or has
+  /// nothing but the render mesh of one.
   Trajectory(const std::string& path, const Scene& scene);
 
   const std::vector<double>& times() const { return file_.times(); }  ///< [s]
@@ -20,6 +21,8 @@ class Trajectory {
   TriangleMesh body(std::size_t b, std::size_t k) const;
 
  private:
+  std::string simulated(const std::string& body) const;
+
   TrajectoryFile file_;
   std::vector<std::string> names_;
   std::vector<std::vector<Triangle>> triangles_;

@@ -29,7 +29,10 @@ std::string scene_text(const Plan& plan, const Options& options) {
   for (const OutputFormat* format : output.formats) formats.push_back(format->name);
   const std::string frames =
       options.fps ? "--fps " + to_text(*options.fps) : "--every " + std::to_string(output.every);
-  scene["output"] = {{"formats", formats}, {"frames", frames}, {"fields", output.fields}};
+  scene["output"] = {{"formats", formats},
+                     {"frames", frames},
+                     {"fields", output.fields},
+                     {"surface", output.surface}};
   return scene.dump();
 }
 
@@ -45,7 +48,10 @@ std::string file_digest(const std::string& path) {
 
 RunIdentity identity_of(const Plan& plan, const Options& options) {
   RunIdentity out{version_text(), scene_text(plan, options), ""};
-  for (const PlannedBody& body : plan.bodies) out.archives += body.archive->user_block().digest;
+  for (const PlannedBody& body : plan.bodies) {
+    out.archives += body.archive->user_block().digest;
+    if (body.render) out.archives += file_digest(body.spec->render_mesh->resolved);
+  }
   for (const ObstacleSpec& obstacle : plan.scene.obstacles)
     if (const auto* mesh = std::get_if<MeshObstacle>(&obstacle.shape))
       out.archives += file_digest(mesh->mesh.resolved);
@@ -77,7 +83,7 @@ std::unique_ptr<StateReader> open_checkpoint(const std::string& directory,
   if (earlier.scene != identity.scene)
     refuse(ErrorCode::invalid_input, "is of another scene or output; only the duration may change");
   if (earlier.archives != identity.archives)
-    refuse(ErrorCode::archive, "was made with other archives or obstacles");
+    refuse(ErrorCode::archive, "was made with other archives, obstacles or render meshes");
   if (steps > planned_steps)
     refuse(ErrorCode::usage, "is of step " + std::to_string(steps) + ", beyond the end at step " +
                                  std::to_string(planned_steps));

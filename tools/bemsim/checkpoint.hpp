@@ -13,7 +13,7 @@ namespace bem {
 struct RunIdentity {
   std::string program;   ///< name and version
   std::string scene;     ///< but for its duration, with the output that is asked for
-  std::string archives;  ///< digests of archives and obstacles
+  std::string archives;  ///< digests of archives, obstacles and render meshes
 
   void visit_state(StateArchive& state) { state(program, scene, archives); }
 };

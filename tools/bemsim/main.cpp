@@ -27,6 +27,7 @@ void check_files(const Options& options, const bem::Scene* scene) {
       files.reads(body.archive.resolved);
       if (body.source) files.reads(body.source->mesh.resolved);
       if (body.source) files.reads(body.source->material_path.resolved);
+      if (body.render_mesh) files.reads(body.render_mesh->resolved);
     }
     for (const bem::ObstacleSpec& obstacle : scene->obstacles)
       if (const auto* mesh = std::get_if<bem::MeshObstacle>(&obstacle.shape))

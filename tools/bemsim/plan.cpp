@@ -5,6 +5,7 @@
 #include "common/cli.hpp"
 #include "constraints/joint_plan.hpp"
 #include "mesh/describe.hpp"
+#include "render_meshes.hpp"
 #include "scene/motion.hpp"
 #include "scene/selection.hpp"
 #include "simulation/simulation.hpp"
@@ -44,7 +45,7 @@ void apply_options(const Options& o, Plan& plan) {
 }
 
 PlannedBody plan_body(const Scene& scene, const BodySpec& spec, ArchiveSource& source) {
-  PlannedBody body{&spec, &source.open(spec.archive), 0, 0, {}};
+  PlannedBody body{&spec, &source.open(spec.archive), 0, 0, {}, nullptr};
   check_archive(scene, spec, body.archive->kind(), body.archive->discretisation());
   const BodyGeometry& geometry = body.archive->geometry();
   for (const TractionSpec& load : spec.tractions)
@@ -213,6 +214,7 @@ void print_body(std::ostream& out, const PlannedBody& body, const Vec3& gravity)
     placed.emplace_back(spec.position + spec.rotation.matrix() * x);
   out << "  mesh coordinates " << box_text(bounding_box(mesh.vertices)) << " m\n"
       << "  placed at        " << box_text(bounding_box(placed)) << " m\n";
+  if (body.render) out << "  " << render_mesh_text(body) << "\n";
   if (body.fixed > 0) out << "  fixed: " << count_text(body.fixed, "vertex") << "\n";
   if (body.handled > 0)
     out << "  handles: " << spec.handles.size() << " with " << count_text(body.handled, "vertex")
@@ -264,6 +266,7 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
       ++(joint.handle ? plan->bodies[joint.a.body].handled : plan->bodies[joint.a.body].fixed);
   plan->welds = std::move(joints.welds);
   if (plan->scene.contact.enabled) plan_obstacles(*plan, source);
+  plan_render_meshes(*plan);
   plan->memory = memory_of(plan->bodies, plan->scene.contact.enabled);
   add_warnings(*plan);
   warn_of_fast_obstacles(*plan);

@@ -2,6 +2,7 @@
 
 #include "frame_schedule.hpp"
 #include "options.hpp"
+#include "render/bound_mesh.hpp"
 #include "simulation/archive_source.hpp"
 #include "twist.hpp"
 
@@ -18,6 +19,7 @@ struct PlannedBody {
   const Archive* archive;
   std::size_t fixed = 0, handled = 0;  ///< vertices (nodes) with prescribed positions
   std::vector<std::size_t> loaded;     ///< triangles by load
+  std::shared_ptr<const BoundMesh> render = nullptr;  ///< where one is written
 };
 
 /// An obstacle, and what its mesh holds with; a plane has none.

@@ -3,11 +3,11 @@
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "checkpoint.hpp"
-#include "dynamics/body_output.hpp"
 #include "files/pending_file.hpp"
 #include "mesh/describe.hpp"
 #include "output/output_directory.hpp"
 #include "stats.hpp"
+#include "trajectory_bodies.hpp"
 #include "writers.hpp"
 
 #include <algorithm>
@@ -16,34 +16,6 @@
 
 namespace bem {
 namespace {
-
-/// The frame is that of the mesh coordinates: without displacements a vertex with mesh coordinates
-/// x is at translation + rotation * x.
-BodyFrame frame_of(const BodySpec& spec, const Body& body, bool tractions) {
-  BodyFrame out;
-  out.positions = BodyOutput(body).positions();
-  if (spec.frame == FrameMotion::stationary) {
-    out.rotation = spec.rotation.matrix();
-    out.translation = spec.position;
-  } else {
-    out.rotation = body.frame().rotation();
-    out.translation = body.frame().translation() - out.rotation * body.model().geometry.mass.centre;
-  }
-  if (tractions) out.tractions = BodyOutput(body).tractions();
-  return out;
-}
-
-/// What is on the disk is always finite.
-void check_finite(const Body& body, const BodyFrame& frame, double time) {
-  const auto finite = [](const std::vector<Vec3>& vectors) {
-    return std::all_of(vectors.begin(), vectors.end(), [](const Vec3& v) { return v.allFinite(); });
-  };
-  if (!finite(frame.positions) || !finite(frame.tractions) || !frame.translation.allFinite() ||
-      !frame.rotation.allFinite())
-    throw Error(ErrorCode::numerical,
-                "body " + in_quotes(body.name()) +
-                    " has a number that is not finite at t = " + to_text(time) + " s");
-}
 
 /// One run: the simulation, its output and what is measured.
 class Run {
@@ -160,11 +132,7 @@ class Run {
     frame.index = static_cast<std::size_t>(statistics_.frames());
     frame.step = static_cast<std::size_t>(simulation_->steps());
     frame.time = simulation_->time();
-    for (std::size_t i = 0; i < plan_.bodies.size(); ++i) {
-      const Body& body = simulation_->bodies()[i];
-      frame.bodies.push_back(frame_of(*plan_.bodies[i].spec, body, writes_tractions(plan_.scene)));
-      check_finite(body, frame.bodies.back(), frame.time);
-    }
+    frame.bodies = body_frames(plan_, *simulation_);
     writers_->write(frame);
     statistics_.record_frame();
   }

@@ -1,34 +1,12 @@
 #include "writers.hpp"
 
 #include "base/error.hpp"
-
-#include <algorithm>
+#include "trajectory_bodies.hpp"
 
 namespace bem {
-namespace {
-
-using Bodies = std::vector<TrajectoryBody>;
-
-Bodies bodies_of(const Plan& plan) {
-  Bodies bodies;
-  for (const PlannedBody& body : plan.bodies) {
-    const TriangleMesh& mesh = body.archive->geometry().input;
-    bodies.push_back({body.spec->name, mesh.vertices.size(), mesh.triangles,
-                      writes_tractions(plan.scene), mesh.vertices});
-  }
-  return bodies;
-}
-
-}  // namespace
-
-bool writes_tractions(const Scene& scene) {
-  const auto& fields = scene.output.fields;
-  return std::find(fields.begin(), fields.end(), OutputField::tractions) != fields.end();
-}
-
 void check_output_records(const Plan& plan, const std::string& directory, std::size_t frames,
                           const OutputRecords& records) {
-  const Bodies bodies = bodies_of(plan);
+  const std::vector<TrajectoryBody> bodies = trajectory_bodies(plan);
   const auto& formats = plan.scene.output.formats;
   require(records.size() == formats.size(), "a checkpoint knows the files of every format");
   const auto refuse = [](const std::string& text) {
@@ -52,7 +30,7 @@ void check_output_records(const Plan& plan, const std::string& directory, std::s
 
 Writers::Writers(const Plan& plan, const std::string& directory, std::size_t kept,
                  const OutputRecords& records) {
-  const Bodies bodies = bodies_of(plan);
+  const std::vector<TrajectoryBody> bodies = trajectory_bodies(plan);
   for (const OutputFormat* format : plan.scene.output.formats) {
     writers_.push_back(format->make_writer(directory, bodies, kept));
     if (kept > 0) writers_.back()->set_records(records[writers_.size() - 1]);

@@ -34,7 +34,4 @@ class Writers {
   std::vector<std::unique_ptr<FrameWriter>> writers_;
 };
 
-/// Does the scene ask for tractions?
-bool writes_tractions(const Scene& scene);
-
 }  // namespace bem

@@ -13,7 +13,7 @@ inline const std::string& full_scene() {
   "time_step": 0.003, "duration": 1.5,
   "gravity": [0, -9.81, 0],
   "bodies": [
-    { "name": "bunny", "archive": "bunny.bem",
+    { "name": "bunny", "archive": "bunny.bem", "render_mesh": "bunny-uv.obj",
       "position": [0, 0.3, 0], "rotation": {"axis": [0, 2, 0], "angle_deg": 30},
       "velocity": [1.5, 0, 0], "angular_velocity": [0, 0, 4],
       "frame": "moving", "correction": "least_squares", "centrifugal": false,
@@ -38,7 +38,7 @@ inline const std::string& full_scene() {
   "joints": [ {"type": "point", "a": {"body": "left", "point": [0.1,0,0]}, "b": {"body": "right", "point": [0.2,0,0]}},
               {"type": "weld", "a": {"body": "left"}, "b": {"body": "right"}, "tolerance": 1e-3} ],
   "contact": {"enabled": true, "self": false, "tolerance": 1e-5, "friction_combine": "average", "solver": "nsgs"},
-  "output": {"formats": ["hdf5", "obj"], "every": 3, "fields": ["positions", "tractions"]} })json";
+  "output": {"formats": ["hdf5", "obj"], "every": 3, "fields": ["positions", "tractions"], "surface": "both"} })json";
   return text;
 }
 

@@ -56,7 +56,7 @@ TEST_CASE("the scenes that the errors are made from are valid") {
 TEST_CASE("an unknown key is answered with the nearest valid one") {
   REQUIRE(body_error("@\"gravty\": true") ==
           "/bodies/0/gravty: unknown key; did you mean \"gravity\"? (allowed: name, archive, mesh, "
-          "material, mesh_scale, precompute, position, rotation, velocity, angular_velocity, "
+          "material, mesh_scale, precompute, render_mesh, position, rotation, velocity, angular_velocity, "
           "frame, correction, gravity, "
           "centrifugal, friction, "
           "fixed, "
