@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesh/obj_groups.hpp"
 #include "mesh/triangle_mesh.hpp"
 
 #include <string>
@@ -19,6 +20,10 @@ namespace bem {
 /// or cannot be understood (the message names the file, for OBJ and OFF also the line), and
 /// ErrorCode::resources if it exists but must not be read. Calls check_interruption() all the time.
 TriangleMesh read_mesh(const std::string& path);
+
+/// The triangles of a mesh file by the names of the groups, objects and materials (`usemtl`) that
+/// they are in; only OBJ files have such names. Throws as read_mesh().
+NamedRanges read_mesh_groups(const std::string& path);
 
 /// What an OBJ file of the mesh says. Coordinates are the shortest decimals that read back to the
 /// same double.
