@@ -1,3 +1,5 @@
+#include "scene/groups.hpp"
+#include "scene/repeat.hpp"
 #include "scene/scene_parts.hpp"
 
 namespace bem {
@@ -10,7 +12,7 @@ HandleSpec read_handle(const JsonValue& value) {
   handle.select = read_selection(reader.required("select"));
   if (const auto motion = reader.optional("motion")) handle.motion = read_motion(*motion);
   if (const auto release = reader.optional("release_time"))
-    handle.release_time = release->non_negative();
+    handle.release_time = release->non_negative(dimension::time);
   reader.finish();
   return handle;
 }
@@ -22,9 +24,9 @@ TractionSpec read_traction(const JsonValue& value) {
   traction.select = read_selection(reader.required("select"));
   const bool pressure = reader.required_one_of({"traction", "pressure"}) == "pressure";
   if (pressure)
-    traction.load = reader.required("pressure").number();
+    traction.load = reader.required("pressure").number(dimension::pressure);
   else
-    traction.load = reader.required("traction").vec3();
+    traction.load = reader.required("traction").vec3(dimension::pressure);
   if (const auto profile = reader.optional("profile")) traction.profile = read_profile(*profile);
   traction.follow = pressure;
   if (const auto follow = reader.optional("follow")) {
@@ -36,11 +38,39 @@ TractionSpec read_traction(const JsonValue& value) {
   return traction;
 }
 
+PlaceSpec read_place(const JsonValue& value) {
+  JsonReader reader(value, "a place");
+  PlaceSpec place;
+  place.location = value.location();
+  const auto centre = reader.optional("center");
+  if (centre) place.centre = centre->vec3(dimension::length);
+  const auto on = reader.optional("on");
+  if (on) {
+    place.on = on->text();
+    place.on_location = on->location();
+    if (place.on.empty()) throw on->unexpected("the name of an obstacle");
+  }
+  if (!on && !centre) throw value.error("one of the keys on, center is required");
+  if (const auto gap = reader.optional("gap")) place.gap = gap->non_negative(dimension::length);
+  if (const auto direction = reader.optional("direction")) place.direction = direction->direction();
+  for (const char* key : {"gap", "direction"})
+    if (!on) reader.refuse(key, "is allowed only beside \"on\"");
+  reader.finish();
+  return place;
+}
+
 void read_placement(JsonReader& reader, BodySpec& body) {
-  if (const auto position = reader.optional("position")) body.position = position->vec3();
+  if (const auto place = reader.optional("place")) {
+    if (reader.optional("position")) reader.refuse("place", "is not allowed beside \"position\"");
+    body.place = read_place(*place);
+  }
+  if (const auto position = reader.optional("position"))
+    body.position = position->vec3(dimension::length);
   if (const auto rotation = reader.optional("rotation")) body.rotation = read_rotation(*rotation);
-  if (const auto velocity = reader.optional("velocity")) body.velocity = velocity->vec3();
-  if (const auto spin = reader.optional("angular_velocity")) body.angular_velocity = spin->vec3();
+  if (const auto velocity = reader.optional("velocity"))
+    body.velocity = velocity->vec3(dimension::velocity);
+  if (const auto spin = reader.optional("angular_velocity"))
+    body.angular_velocity = spin->vec3(dimension::angular_velocity);
 }
 
 void read_constraints_and_loads(JsonReader& reader, BodySpec& body) {
@@ -55,9 +85,28 @@ void read_constraints_and_loads(JsonReader& reader, BodySpec& body) {
       body.tractions.push_back(read_traction(item));
 }
 
+Groups read_groups(const JsonValue& value) {
+  Groups groups;
+  for (const auto& [name, member] : value.members("the groups of a body")) {
+    const Selection selection = read_selection(member);
+    if (selection.kind == Selection::Kind::group)
+      throw member.error("a group cannot consist of another one");
+    groups.add(name, selection);
+  }
+  return groups;
+}
+
+/// What the selections of the body call by name. Its archive has no names of groups.
+void resolve_groups(JsonReader& reader, BodySpec& body) {
+  const auto groups = reader.optional("groups");
+  (groups ? read_groups(*groups) : Groups())
+      .resolve(body,
+               "; those of a mesh file are not in an archive: write them to the body's \"groups\"");
+}
+
 }  // namespace
 
-BodySpec read_body(const JsonValue& value) {
+std::vector<BodySpec> read_bodies(const JsonValue& value) {
   JsonReader reader(value, "a body");
   BodySpec body;
   body.location = value.location();
@@ -74,8 +123,11 @@ BodySpec read_body(const JsonValue& value) {
   if (const auto stretch = reader.optional("centrifugal")) body.centrifugal = stretch->boolean();
   if (const auto friction = reader.optional("friction")) body.friction = friction->non_negative();
   read_constraints_and_loads(reader, body);
+  resolve_groups(reader, body);
+  const auto repeat = reader.optional("repeat");
+  reader.optional("include");  // expanded_scene() has put it in
   reader.finish();
-  return body;
+  return repeated(body, repeat);
 }
 
 }  // namespace bem

@@ -22,6 +22,7 @@ void check_files(const Options& options, const bem::Scene* scene) {
   bem::FileRoles files;
   files.reads(options.scene);
   if (scene) {
+    for (const std::string& file : scene->files) files.reads(file);
     for (const bem::BodySpec& body : scene->bodies) files.reads(body.archive.resolved);
     for (const bem::ObstacleSpec& obstacle : scene->obstacles)
       if (const auto* mesh = std::get_if<bem::MeshObstacle>(&obstacle.shape))

@@ -7,6 +7,7 @@
 #include "mesh/describe.hpp"
 #include "scene/motion.hpp"
 #include "scene/selection.hpp"
+#include "simulation/placement.hpp"
 #include "simulation/simulation.hpp"
 
 #include <algorithm>
@@ -132,10 +133,10 @@ void add_warnings(Plan& plan) {
                               " turns about as fast as it vibrates: its deformation will be wrong; "
                               "make it stiffer or slower, or say \"centrifugal\": false");
     if (body.spec->frame == FrameMotion::stationary && body.fixed + body.handled == 0)
-      plan.warnings.push_back(where(body.spec->location) + ": nothing holds the body " +
-                              in_quotes(body.spec->name) +
-                              ", but its stationary frame is made for small displacements; a moving "
-                              "frame follows it");
+      plan.warnings.push_back(
+          where(body.spec->location) + ": nothing holds the body " + in_quotes(body.spec->name) +
+          ", but its stationary frame is made for small displacements; a moving "
+          "frame follows it");
   }
 }
 
@@ -257,6 +258,7 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
     deformable.push_back(
         body.archive->kind() == ModelKind::rigid ? nullptr : &body.archive->discretisation());
   body_schemes(plan->scene, deformable);
+  place_bodies(plan->scene, geometries, source);
   JointPlan joints = plan_joints(plan->scene, geometries);
   for (const Joint& joint : joints.joints)
     if (joint.prescribed)
