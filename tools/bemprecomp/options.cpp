@@ -8,6 +8,7 @@
 #include "kernels/scheme.hpp"
 #include "mesh/describe.hpp"
 #include "model/defaults.hpp"
+#include "scene/named_materials.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -104,7 +105,7 @@ void add_options(CLI::App& app, Typed& t) {
   Options& o = t.options;
   app.add_option("MESH", o.mesh, "closed triangle mesh in any format that assimp reads")
       ->type_name("");
-  app.add_option("MATERIAL", o.material, "material JSON")->type_name("");
+  app.add_option("MATERIAL", o.material, "material JSON, or the name of a material")->type_name("");
   add_matrix_options(app, t);
   app.option_defaults()->group("Run");
   app.add_option("-o,--output", o.output, "archive to write")->type_name("BODY.bem");
@@ -217,7 +218,7 @@ void check_static(const Options& o, const Scheme& scheme) {
 
 void check_inputs(const Options& o) {
   if (o.mesh.empty() || o.material.empty())
-    refuse("give a mesh and a material file: bemprecomp MESH MATERIAL.json -o BODY.bem");
+    refuse("give a mesh and a material: bemprecomp MESH MATERIAL -o BODY.bem");
   if (o.output.empty() && !o.dry_run) refuse("name the archive to write: -o BODY.bem");
   if (o.dt) positive("--dt", *o.dt);
   positive("--mesh-scale", o.mesh_scale);
@@ -232,7 +233,8 @@ void check_inputs(const Options& o) {
 void check_distinct_files(const Options& o) {
   FileRoles files;
   for (const std::string& path : o.archives) files.reads(path);
-  for (const std::string& path : {o.mesh, o.material}) files.reads(path);
+  files.reads(o.mesh);
+  if (!is_named_material(o.material)) files.reads(o.material);
   if (o.loads != "all" && o.loads != "none") files.reads(o.loads);
   for (const std::string& path : {o.output, o.stats, o.log_file}) files.writes(path);
   files.check();
@@ -304,10 +306,10 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   CLI::App app("Computes the matrices of an elastic body from its surface mesh and material.",
                "bemprecomp");
   set_up_help(app,
-              "  bemprecomp MESH MATERIAL.json -o BODY.bem [options]\n"
+              "  bemprecomp MESH MATERIAL -o BODY.bem [options]\n"
               "  bemprecomp --info A.bem [--json] | --verify A.bem | --diff A.bem B.bem\n");
   add_options(app, typed);
-  if (!parse_command_line(app, argc, argv, "one mesh and one material file are enough"))
+  if (!parse_command_line(app, argc, argv, "one mesh and one material are enough"))
     return std::nullopt;
   return checked(app, typed);
 }

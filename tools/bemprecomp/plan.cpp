@@ -11,7 +11,8 @@
 #include "mesh/solids.hpp"
 #include "model/defaults.hpp"
 #include "model/model_assembly.hpp"
-#include "scene/material_json.hpp"
+#include "scene/groups.hpp"
+#include "scene/named_materials.hpp"
 #include "scene/selection.hpp"
 #include "scene/selection_json.hpp"
 
@@ -62,10 +63,14 @@ BodyGeometry read_body(Options& o, double density, std::vector<std::string>& war
 }
 
 /// Nodes that a file of selections chooses.
-std::vector<int> read_loaded_nodes(const std::string& path, const BodyGeometry& geometry) {
+std::vector<int> read_loaded_nodes(const std::string& path, const std::string& mesh,
+                                   const BodyGeometry& geometry) {
+  const Groups groups(read_mesh_groups(mesh));
   std::set<int> nodes;
-  for (const Selection& s : read_selections(path))
+  for (Selection& s : read_selections(path)) {
+    groups.resolve(s);
     for (int node : select_nodes(geometry, s)) nodes.insert(node);
+  }
   return {nodes.begin(), nodes.end()};
 }
 
@@ -77,7 +82,7 @@ void plan_storage(const Options& o, Plan& plan) {
     p.loads = Loads::none;
   } else if (o.loads != "all") {
     p.loads = Loads::some;
-    p.loaded_nodes = read_loaded_nodes(o.loads, plan.geometry);
+    p.loaded_nodes = read_loaded_nodes(o.loads, o.mesh, plan.geometry);
   }
 }
 
@@ -189,7 +194,7 @@ double seconds_per_byte_of_products() {
 Plan make_plan(Options& o) {
   Plan plan;
   Discretisation& d = plan.options.discretisation;
-  d.material = read_material(o.material);
+  d.material = find_material(o.material);
   plan.options.kind = o.model;
   if (o.model == ModelKind::rigid) {
     plan.geometry = read_body(o, d.material.density, plan.warnings);
