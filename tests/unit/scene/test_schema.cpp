@@ -54,9 +54,10 @@ std::set<std::string> allowed_keys(const std::string& message) {
 /// Whether an error of the reader is about something that a schema cannot express.
 bool beyond_schema(const std::string& message) {
   // Includes and defaults may have the keys that scenes, bodies and obstacles need.
-  if (std::regex_search(message, std::regex("^s.json:[0-9:]* (/(bodies|obstacles)/[0-9]+: )?"
-                                            "(the required key|one of the keys (plane, mesh))")))
-    return true;
+  static const std::regex missing(
+      "^s.json:[0-9:]* (/(bodies|obstacles)/[0-9]+: )?(the required key|one of the keys (plane, "
+      "mesh))");
+  if (std::regex_search(message, missing)) return true;
   for (const char* part :
        {"the zero vector", "a later time than", "\"max\" >= \"min\"", "already used at",
         "of this scene, found", "is for obstacles with a mesh", "needs a \"direction\"",
