@@ -83,6 +83,21 @@ TriangleMesh read_mesh(const std::string& path) {
   return triangulate(read_mesh_file(path).polygons, path);
 }
 
+NamedRanges read_mesh_groups(const std::string& path) {
+  if (lower_extension(path) != ".obj") return {};
+  check_file(path, true);
+  const std::string text = read_text(path, std::numeric_limits<std::size_t>::max());
+  std::vector<std::size_t> first_triangles;
+  triangulate(parse_obj(text, path), path, CrossingFaces::refuse, &first_triangles);
+  NamedRanges groups = parse_obj_groups(text, path);
+  for (auto& [name, ranges] : groups)
+    for (auto& [begin, end] : ranges) {
+      begin = first_triangles[begin];
+      end = first_triangles[end];
+    }
+  return groups;
+}
+
 std::string obj_text(const TriangleMesh& mesh) {
   std::string text;
   for (const Vec3& v : mesh.vertices) {

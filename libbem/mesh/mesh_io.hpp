@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesh/obj_groups.hpp"
 #include "mesh/polygon_mesh.hpp"
 #include "mesh/triangle_mesh.hpp"
 
@@ -30,6 +31,10 @@ struct MeshFile {
 /// The faces of a file as it has them, read as read_mesh() does. Texture coordinates of OBJ files
 /// are in their text alone (render/obj_template.hpp).
 MeshFile read_mesh_file(const std::string& path);
+
+/// The triangles of a mesh file by the names of the groups, objects and materials (`usemtl`) that
+/// they are in; only OBJ files have such names. Throws as read_mesh().
+NamedRanges read_mesh_groups(const std::string& path);
 
 /// What an OBJ file of the mesh says. Coordinates are the shortest decimals that read back to the
 /// same double.

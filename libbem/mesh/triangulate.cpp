@@ -47,7 +47,7 @@ class Triangulation {
     position_ = first_at_position(mesh_.vertices, std::move(all));
   }
 
-  TriangleMesh run() {
+  TriangleMesh run(std::vector<std::size_t>* first_triangles) {
     for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
       check_interruption();
       first_triangle_.push_back(triangles_.size());
@@ -55,6 +55,7 @@ class Triangulation {
     }
     first_triangle_.push_back(triangles_.size());
     separate_edges();
+    if (first_triangles) *first_triangles = std::move(first_triangle_);
     return {std::move(mesh_.vertices), std::move(triangles_)};
   }
 
@@ -169,12 +170,17 @@ class Triangulation {
 
 }  // namespace
 
-TriangleMesh triangulate(PolygonMesh polygons, const std::string& source, CrossingFaces crossing) {
+TriangleMesh triangulate(PolygonMesh polygons, const std::string& source, CrossingFaces crossing,
+                         std::vector<std::size_t>* first_triangles) {
   if (!has_only_triangles(polygons) && can_be_measured(polygons))
-    return Triangulation(std::move(polygons), source, crossing).run();
+    return Triangulation(std::move(polygons), source, crossing).run(first_triangles);
   TriangleMesh mesh;
-  for (std::size_t f = 0; f < polygons.face_count(); ++f)
+  std::vector<std::size_t> first = {0};
+  for (std::size_t f = 0; f < polygons.face_count(); ++f) {
     append_fan(polygons.face(f), polygons.corner_count(f), mesh.triangles);
+    first.push_back(mesh.triangles.size());
+  }
+  if (first_triangles) *first_triangles = std::move(first);
   mesh.vertices = std::move(polygons.vertices);
   return mesh;
 }

@@ -3,9 +3,11 @@
 #include "base/error.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/extent.hpp"
+#include "mesh/mesh_io.hpp"
 #include "mesh/solids.hpp"
 #include "model/defaults.hpp"
 #include "preparation/time_step.hpp"
+#include "scene/groups.hpp"
 #include "scene/selection.hpp"
 #include "scene/selection_json.hpp"
 
@@ -61,6 +63,7 @@ class Planner {
   void choose_discretisation();
   void choose_storage();
   void load(const std::vector<Selection>& selections);
+  std::vector<Selection> read_load_file() const;
   double time_step();
   void choose_history();
   double history_length() const;
@@ -112,9 +115,16 @@ void Planner::choose_storage() {
   if (settings().loads == "none")
     options.loads = Loads::none;
   else if (settings().has_load_file())
-    load(read_selections(settings().loads));
+    load(read_load_file());
   else if (!inputs_.loaded.empty())
     load(inputs_.loaded);
+}
+
+std::vector<Selection> Planner::read_load_file() const {
+  std::vector<Selection> selections = read_selections(settings().loads);
+  const Groups groups(read_mesh_groups(inputs_.mesh));
+  for (Selection& s : selections) groups.resolve(s);
+  return selections;
 }
 
 /// Some vertices may carry loads.

@@ -1,6 +1,12 @@
 #include "mesh/describe.hpp"
+#include "mesh/mesh_io.hpp"
+#include "scene/groups.hpp"
 #include "scene/material_json.hpp"
+#include "scene/named_materials.hpp"
+#include "scene/repeat.hpp"
 #include "scene/scene_parts.hpp"
+
+#include <algorithm>
 
 namespace bem {
 namespace {
@@ -12,7 +18,7 @@ HandleSpec read_handle(const JsonValue& value) {
   handle.select = read_selection(reader.required("select"));
   if (const auto motion = reader.optional("motion")) handle.motion = read_motion(*motion);
   if (const auto release = reader.optional("release_time"))
-    handle.release_time = release->non_negative();
+    handle.release_time = release->non_negative(dimension::time);
   reader.finish();
   return handle;
 }
@@ -24,9 +30,9 @@ TractionSpec read_traction(const JsonValue& value) {
   traction.select = read_selection(reader.required("select"));
   const bool pressure = reader.required_one_of({"traction", "pressure"}) == "pressure";
   if (pressure)
-    traction.load = reader.required("pressure").number();
+    traction.load = reader.required("pressure").number(dimension::pressure);
   else
-    traction.load = reader.required("traction").vec3();
+    traction.load = reader.required("traction").vec3(dimension::pressure);
   if (const auto profile = reader.optional("profile")) traction.profile = read_profile(*profile);
   traction.follow = pressure;
   if (const auto follow = reader.optional("follow")) {
@@ -38,11 +44,39 @@ TractionSpec read_traction(const JsonValue& value) {
   return traction;
 }
 
+PlaceSpec read_place(const JsonValue& value) {
+  JsonReader reader(value, "a place");
+  PlaceSpec place;
+  place.location = value.location();
+  const auto centre = reader.optional("center");
+  if (centre) place.centre = centre->vec3(dimension::length);
+  const auto on = reader.optional("on");
+  if (on) {
+    place.on = on->text();
+    place.on_location = on->location();
+    if (place.on.empty()) throw on->unexpected("the name of an obstacle");
+  }
+  if (!on && !centre) throw value.error("one of the keys on, center is required");
+  if (const auto gap = reader.optional("gap")) place.gap = gap->non_negative(dimension::length);
+  if (const auto direction = reader.optional("direction")) place.direction = direction->direction();
+  for (const char* key : {"gap", "direction"})
+    if (!on) reader.refuse(key, "is allowed only beside \"on\"");
+  reader.finish();
+  return place;
+}
+
 void read_placement(JsonReader& reader, BodySpec& body) {
-  if (const auto position = reader.optional("position")) body.position = position->vec3();
+  if (const auto place = reader.optional("place")) {
+    if (reader.optional("position")) reader.refuse("place", "is not allowed beside \"position\"");
+    body.place = read_place(*place);
+  }
+  if (const auto position = reader.optional("position"))
+    body.position = position->vec3(dimension::length);
   if (const auto rotation = reader.optional("rotation")) body.rotation = read_rotation(*rotation);
-  if (const auto velocity = reader.optional("velocity")) body.velocity = velocity->vec3();
-  if (const auto spin = reader.optional("angular_velocity")) body.angular_velocity = spin->vec3();
+  if (const auto velocity = reader.optional("velocity"))
+    body.velocity = velocity->vec3(dimension::velocity);
+  if (const auto spin = reader.optional("angular_velocity"))
+    body.angular_velocity = spin->vec3(dimension::angular_velocity);
 }
 
 void read_constraints_and_loads(JsonReader& reader, BodySpec& body) {
@@ -65,17 +99,6 @@ std::string setting_text(const JsonValue& value, Setting::Kind kind) {
   if (kind == Kind::text && value.kind() != JsonKind::number)
     throw value.unexpected("a string or a number");
   return to_text(value.number());
-}
-
-void read_material_of(const JsonValue& value, BodySource& source) {
-  if (value.kind() == JsonKind::object) {
-    source.material = read_material(value);
-    source.material_path.location = value.location();
-    return;
-  }
-  source.material_path = read_path(value);
-  source.material =
-      at_place(value.location(), [&] { return read_material(source.material_path.resolved); });
 }
 
 PrecomputeSettings read_settings(const JsonValue& value) {
@@ -103,7 +126,11 @@ BodySource read_source(const JsonValue& mesh, JsonReader& reader) {
   BodySource source;
   source.mesh = read_path(mesh);
   if (const auto scale = reader.optional("mesh_scale")) source.mesh_scale = scale->positive();
-  read_material_of(reader.required("material"), source);
+  const JsonValue material = reader.required("material");
+  source.material = read_material_value(material);
+  if (material.kind() == JsonKind::string && !is_named_material(material.text()))
+    source.material_path = read_path(material);
+  source.material_path.location = material.location();
   if (const auto settings = reader.optional("precompute"))
     source.settings = read_settings(*settings);
   return source;
@@ -125,9 +152,43 @@ void read_model(JsonReader& reader, BodySpec& body) {
     if (reader.optional(key) && !mesh) reader.refuse(key, "belongs to a body with a \"mesh\"");
 }
 
+Groups read_groups(const JsonValue& value) {
+  Groups groups;
+  for (const auto& [name, member] : value.members("the groups of a body")) {
+    const Selection selection = read_selection(member);
+    if (selection.kind == Selection::Kind::group)
+      throw member.error("a group cannot consist of another one");
+    groups.add(name, selection);
+  }
+  return groups;
+}
+
+bool names_groups(const BodySpec& body) {
+  const auto is_group = [](const Selection& s) { return s.kind == Selection::Kind::group; };
+  const auto any = [&](const auto& items) {
+    return std::any_of(items.begin(), items.end(),
+                       [&](const auto& item) { return is_group(item.select); });
+  };
+  return std::any_of(body.fixed.begin(), body.fixed.end(), is_group) || any(body.handles) ||
+         any(body.tractions);
+}
+
+/// What the selections of the body call by name: groups of the scene, and those of its mesh file.
+void resolve_groups(JsonReader& reader, BodySpec& body) {
+  const auto given = reader.optional("groups");
+  Groups groups = given ? read_groups(*given) : Groups();
+  if (!names_groups(body)) return;
+  if (body.source)
+    groups.set_of_mesh(at_place(body.source->mesh.location,
+                                [&] { return read_mesh_groups(body.source->mesh.resolved); }));
+  groups.resolve(body, body.source ? ""
+                                   : "; those of a mesh file are not in an archive: write them to "
+                                     "the body's \"groups\"");
+}
+
 }  // namespace
 
-BodySpec read_body(const JsonValue& value) {
+std::vector<BodySpec> read_bodies(const JsonValue& value) {
   JsonReader reader(value, "a body");
   BodySpec body;
   body.location = value.location();
@@ -145,8 +206,11 @@ BodySpec read_body(const JsonValue& value) {
   if (const auto stretch = reader.optional("centrifugal")) body.centrifugal = stretch->boolean();
   if (const auto friction = reader.optional("friction")) body.friction = friction->non_negative();
   read_constraints_and_loads(reader, body);
+  resolve_groups(reader, body);
+  const auto repeat = reader.optional("repeat");
+  reader.optional("include");  // expanded_scene() has put it in
   reader.finish();
-  return body;
+  return repeated(body, repeat);
 }
 
 }  // namespace bem

@@ -32,12 +32,16 @@ struct AxisAngle {
 
 /// Chooses vertices or triangles of one body's mesh.
 struct Selection {
-  enum class Kind { all, vertices, triangles, box };
+  enum class Kind { all, vertices, triangles, box, sphere, plane, group };
 
   Kind kind = Kind::all;
   std::vector<int> indices;     ///< 0-based, for vertices and triangles
   Vec3 box_min, box_max;        ///< [m], mesh coordinates, min <= max
-  std::optional<Vec3> normal;   ///< unit vector, mesh coordinates, with Kind::box only
+  Vec3 point = Vec3::Zero();    ///< [m], mesh coordinates: centre of the sphere, or of the plane
+  double radius = 0;            ///< [m], of the sphere, > 0
+  Vec3 side = Vec3::UnitX();    ///< unit vector to the side of the plane that is chosen
+  std::string group;            ///< name; resolve_groups (scene/groups.hpp) puts its selection here
+  std::optional<Vec3> normal;   ///< unit vector, mesh coordinates; with a box, sphere or plane
   double normal_tolerance = 0;  ///< largest angle [rad] between it and a triangle's normal
   Location location;
 
@@ -116,6 +120,18 @@ struct BodySource {
   PrecomputeSettings settings;  ///< of "precompute"
 };
 
+/// Where a body is put once its geometry is known (simulation/placement.hpp).
+struct PlaceSpec {
+  Vec3 centre = Vec3::Zero();  ///< of the box around the body [m]
+  std::string on;              ///< name of the obstacle that it comes to lie on, or empty
+  std::size_t obstacle = 0;    ///< index of that in Scene::obstacles
+  std::optional<double>
+      gap;  ///< to the obstacle along the direction [m], >= 0; always there with `on`
+  std::optional<Vec3> direction;  ///< unit vector in which it falls onto the obstacle; likewise
+  Vec3 offset = Vec3::Zero();     ///< of a copy of a repeated body [m]
+  Location location, on_location;
+};
+
 struct BodySpec {
   std::string name;
   /// Without a path until the archive of a body with a source is prepared
@@ -124,6 +140,7 @@ struct BodySpec {
   std::optional<BodySource> source;
   std::optional<FilePath> render_mesh;   ///< what trajectories show in place of the surface
   Vec3 position = Vec3::Zero();          ///< of the mesh's origin [m]
+  std::optional<PlaceSpec> place;        ///< decides on the position
   AxisAngle rotation;                    ///< world = position + R * mesh coordinates
   Vec3 velocity = Vec3::Zero();          ///< of the centre of mass [m/s]
   Vec3 angular_velocity = Vec3::Zero();  ///< about the centre of mass [rad/s]

@@ -1,4 +1,5 @@
 #include "base/nearest_name.hpp"
+#include "scene/repeat.hpp"
 #include "scene/scene_parts.hpp"
 
 #include <limits>
@@ -9,7 +10,7 @@ namespace {
 PlaneObstacle read_plane(const JsonValue& value) {
   JsonReader reader(value, "a plane");
   PlaneObstacle plane;
-  plane.point = reader.required("point").vec3();
+  plane.point = reader.required("point").vec3(dimension::length);
   plane.normal = reader.required("normal").direction();
   reader.finish();
   return plane;
@@ -17,32 +18,22 @@ PlaneObstacle read_plane(const JsonValue& value) {
 
 /// One factor for all axes, or three.
 Vec3 read_scale(const JsonValue& value) {
-  if (value.kind() == JsonKind::number) return Vec3::Constant(value.positive());
+  if (value.kind() == JsonKind::number || value.kind() == JsonKind::string)
+    return Vec3::Constant(value.positive());
   if (value.kind() != JsonKind::array) throw value.unexpected("a number > 0, or three of them");
   const Vec3 scale = value.vec3();
   if (!(scale.array() > 0).all()) throw value.error("expected three numbers > 0");
   return scale;
 }
 
-std::size_t body_named(const JsonValue& value, const BodyNames& bodies) {
-  const std::string name = value.text();
-  const auto match = bodies.find(name);
-  if (match != bodies.end()) return match->second;
-  std::vector<std::string> names;
-  names.reserve(bodies.size());
-  for (const auto& [known, index] : bodies) names.push_back(known);
-  const std::string nearest = nearest_name(name, names);
-  throw value.error("expected the name of a body of this scene, found " + in_quotes(name) +
-                    (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?"));
-}
-
-JointEnd read_joint_end(const JsonValue& value, JointType type, const BodyNames& bodies) {
+JointEnd read_joint_end(const JsonValue& value, JointType type, const ThingNames& bodies) {
   JsonReader reader(value, "a side of a joint");
   JointEnd end;
   end.location = value.location();
-  end.body = body_named(reader.required("body"), bodies);
+  const JsonValue body = reader.required("body");
+  end.body = thing_named(body.text(), body.location(), bodies, "a body");
   if (type == JointType::point)
-    end.point = reader.required("point").vec3();
+    end.point = reader.required("point").vec3(dimension::length);
   else
     reader.refuse("point", "is allowed only in joints of type \"point\"");
   reader.finish();
@@ -59,7 +50,20 @@ std::vector<const OutputFormat*> read_formats(const JsonValue& value) {
 
 }  // namespace
 
-ObstacleSpec read_obstacle(const JsonValue& value) {
+std::size_t thing_named(const std::string& name, const Location& place, const ThingNames& things,
+                        const std::string& what) {
+  const auto match = things.find(name);
+  if (match != things.end()) return match->second;
+  std::vector<std::string> names;
+  names.reserve(things.size());
+  for (const auto& [known, index] : things) names.push_back(known);
+  const std::string nearest = nearest_name(name, names);
+  throw error_at(place, "expected the name of " + what + " of this scene, found " +
+                            in_quotes(name) +
+                            (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?"));
+}
+
+std::vector<ObstacleSpec> read_obstacles(const JsonValue& value) {
   JsonReader reader(value, "an obstacle");
   ObstacleSpec obstacle;
   obstacle.location = value.location();
@@ -72,18 +76,21 @@ ObstacleSpec read_obstacle(const JsonValue& value) {
     MeshObstacle mesh;
     mesh.mesh = read_path(reader.required("mesh"));
     if (const auto scale = reader.optional("scale")) mesh.scale = read_scale(*scale);
-    if (const auto position = reader.optional("position")) mesh.position = position->vec3();
+    if (const auto position = reader.optional("position"))
+      mesh.position = position->vec3(dimension::length);
     if (const auto rotation = reader.optional("rotation")) mesh.rotation = read_rotation(*rotation);
     if (const auto motion = reader.optional("motion")) mesh.motion = read_motion(*motion);
     obstacle.shape = mesh;
   }
   if (const auto friction = reader.optional("friction"))
     obstacle.friction = friction->non_negative();
+  const auto repeat = reader.optional("repeat");
+  reader.optional("include");  // expanded_scene() has put it in
   reader.finish();
-  return obstacle;
+  return repeated(obstacle, repeat);
 }
 
-JointSpec read_joint(const JsonValue& value, const BodyNames& bodies) {
+JointSpec read_joint(const JsonValue& value, const ThingNames& bodies) {
   JsonReader reader(value, "a joint");
   JointSpec joint;
   joint.location = value.location();
@@ -97,7 +104,8 @@ JointSpec read_joint(const JsonValue& value, const BodyNames& bodies) {
           .required("body")
           .error("expected another body than at the side \"a\" of the joint");
   }
-  if (const auto tolerance = reader.optional("tolerance")) joint.tolerance = tolerance->positive();
+  if (const auto tolerance = reader.optional("tolerance"))
+    joint.tolerance = tolerance->positive(dimension::length);
   reader.finish();
   return joint;
 }
@@ -110,7 +118,7 @@ ContactSpec read_contact(const JsonValue& value) {
   if (const auto enabled = reader.optional("enabled")) contact.enabled = enabled->boolean();
   if (const auto self = reader.optional("self")) contact.self = self->boolean();
   if (const auto tolerance = reader.optional("tolerance"))
-    contact.tolerance = tolerance->positive();
+    contact.tolerance = tolerance->positive(dimension::length);
   if (const auto combine = reader.optional("friction_combine"))
     contact.friction_combine = combine->choice<FrictionCombine>();
   if (const auto solver = reader.optional("solver"))

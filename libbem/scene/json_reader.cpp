@@ -9,6 +9,8 @@
 namespace bem {
 namespace {
 
+constexpr double kDegree = kPi / 180;  // [rad]
+
 std::string format(double value) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
@@ -52,25 +54,52 @@ bool JsonValue::boolean() const {
   return node().boolean;
 }
 
-double JsonValue::number() const {
-  if (kind() != JsonKind::number) throw unexpected("a number");
-  return node().number;
+double JsonValue::quantity(const Dimension& dimension, const std::string& range,
+                           double number_unit) const {
+  if (kind() == JsonKind::number) return node().number * number_unit;
+  const std::string expected = dimension_name(dimension) + range;
+  if (kind() != JsonKind::string) throw unexpected(expected);
+  const std::optional<Quantity> read = at_place(location(), [&] { return parse_quantity(text()); });
+  if (!read)
+    throw unexpected(expected +
+                     (dimension == dimension::none ? "" : " (" + dimension_help(dimension) + ")"));
+  if (!(read->dimension == dimension))
+    throw error("expected " + expected + ", found " + dimension_name(read->dimension) + ", " +
+                in_quotes(text()));
+  return read->value;
 }
 
-double JsonValue::positive() const {
-  if (kind() != JsonKind::number || !(node().number > 0)) throw unexpected("a number > 0");
-  return node().number;
+double JsonValue::number(const Dimension& dimension) const {
+  return quantity(dimension, "");
 }
 
-double JsonValue::non_negative() const {
-  if (kind() != JsonKind::number || !(node().number >= 0)) throw unexpected("a number >= 0");
-  return node().number;
+double JsonValue::positive(const Dimension& dimension) const {
+  const double x = quantity(dimension, " > 0");
+  if (!(x > 0)) throw unexpected(dimension_name(dimension) + " > 0");
+  return x;
+}
+
+double JsonValue::non_negative(const Dimension& dimension) const {
+  const double x = quantity(dimension, " >= 0");
+  if (!(x >= 0)) throw unexpected(dimension_name(dimension) + " >= 0");
+  return x;
 }
 
 double JsonValue::number_in(double low, double high) const {
-  const double x = node().number;
-  if (kind() != JsonKind::number || !(low <= x && x <= high))
-    throw unexpected("a number from " + format(low) + " to " + format(high));
+  const std::string range = " from " + format(low) + " to " + format(high);
+  const double x = quantity(dimension::none, range);
+  if (!(low <= x && x <= high)) throw unexpected("a number" + range);
+  return x;
+}
+
+double JsonValue::angle() const {
+  return quantity(dimension::angle, "", kDegree);
+}
+
+double JsonValue::angle_in(double low, double high) const {
+  const std::string range = " from " + format(low) + " to " + format(high) + " degrees";
+  const double x = quantity(dimension::angle, range, kDegree);
+  if (!(low * kDegree <= x && x <= high * kDegree)) throw unexpected("an angle" + range);
   return x;
 }
 
@@ -86,12 +115,12 @@ std::string JsonValue::text() const {
   return document_->string(node().text);
 }
 
-Vec3 JsonValue::vec3() const {
+Vec3 JsonValue::vec3(const Dimension& dimension) const {
   if (kind() != JsonKind::array || node().count != 3) throw unexpected("an array of three numbers");
   Vec3 v;
   std::uint32_t child = node().first_child;
   for (int k = 0; k < 3; ++k) {
-    v[k] = JsonValue(*document_, child).number();
+    v[k] = JsonValue(*document_, child).number(dimension);
     child = document_->node(child).next_sibling;
   }
   return v;
@@ -119,11 +148,10 @@ std::vector<JsonValue> JsonValue::items(std::size_t min_count, const std::string
 }
 
 std::vector<std::pair<std::string, JsonValue>> JsonValue::members(const std::string& what) const {
-  if (kind() != JsonKind::object) throw unexpected(what);
+  if (kind() != JsonKind::object) throw unexpected(what + " (an object)");
   std::vector<std::pair<std::string, JsonValue>> out;
-  for (auto child = node().first_child; child != JsonDocument::kNone;
-       child = document_->node(child).next_sibling)
-    out.emplace_back(document_->string(document_->node(child).key), JsonValue(*document_, child));
+  for (std::uint32_t id : document_->children(id_))
+    out.emplace_back(document_->string(document_->node(id).key), JsonValue(*document_, id));
   return out;
 }
 

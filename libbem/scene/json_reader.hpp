@@ -3,6 +3,7 @@
 #include "base/choices.hpp"
 #include "base/types.hpp"
 #include "scene/json_document.hpp"
+#include "scene/units.hpp"
 
 #include <optional>
 #include <string>
@@ -22,20 +23,24 @@ class JsonValue {
   Location location() const { return document_->location(id_); }
 
   bool boolean() const;
-  double number() const;                            ///< finite
-  double positive() const;                          ///< finite and > 0
-  double non_negative() const;                      ///< finite and >= 0
-  double number_in(double low, double high) const;  ///< low <= x <= high
-  int integer_in(int low, int high) const;          ///< low <= n <= high; 3.0 is an integer
+  int integer_in(int low, int high) const;  ///< low <= n <= high; 3.0 is an integer
   std::string text() const;
-  Vec3 vec3() const;       ///< array of three numbers
+
+  // Quantities, in SI units: a number, or a string with a unit of the dimension. They are finite.
+  double number(const Dimension& dimension = dimension::none) const;
+  double positive(const Dimension& dimension = dimension::none) const;      ///< > 0
+  double non_negative(const Dimension& dimension = dimension::none) const;  ///< >= 0
+  double number_in(double low, double high) const;  ///< low <= x <= high, without dimension
+  double angle() const;                             ///< [rad]; a number is in degrees
+  double angle_in(double low, double high) const;   ///< [rad]; the limits are in degrees
+  Vec3 vec3(const Dimension& dimension = dimension::none) const;  ///< array of three quantities
   Vec3 direction() const;  ///< vec3() that is not zero, at unit length
 
   /// The elements of an array with at least `min_count` of them. `what` describes the array in
   /// messages: "array of bodies".
   std::vector<JsonValue> items(std::size_t min_count, const std::string& what) const;
 
-  /// The members of an object. `what` describes it in messages: "an object of settings".
+  /// The members of an object, whatever their keys are. `what` as in JsonReader.
   std::vector<std::pair<std::string, JsonValue>> members(const std::string& what) const;
 
   /// Index in `names` of the string found here; a misspelt one is answered with the nearest.
@@ -67,6 +72,10 @@ class JsonValue {
   friend class JsonReader;
   const JsonDocument::Node& node() const { return document_->node(id_); }
   std::string found() const;
+  /// Throws for anything but a number and a string with a unit of the dimension; `range` is what
+  /// more is expected (" > 0"). `number_unit` is that of a number.
+  double quantity(const Dimension& dimension, const std::string& range,
+                  double number_unit = 1) const;
 
   const JsonDocument* document_;
   std::uint32_t id_;

@@ -45,6 +45,19 @@ std::string in_quotes(const std::string& text) {
   return '"' + printable(text, 60) + '"';
 }
 
+std::string pointer_token(const std::string& key) {
+  std::string out = "/";
+  for (char c : key) {
+    if (c == '~')
+      out += "~0";
+    else if (c == '/')
+      out += "~1";
+    else
+      out += c;
+  }
+  return out;
+}
+
 std::string where(const Location& location) {
   std::string out = location.file;
   if (location.line > 0)

@@ -15,6 +15,9 @@ struct Location {
   std::string pointer;  ///< JSON pointer (RFC 6901); empty for the whole document
 };
 
+/// One step of a JSON pointer: "/" and the key, with "~" and "/" in it escaped.
+std::string pointer_token(const std::string& key);
+
 /// `FILE:LINE:COLUMN: POINTER`, without the parts that `location` does not have.
 std::string where(const Location& location);
 

@@ -1,23 +1,19 @@
 #include "scene/material_json.hpp"
 
-#include "scene/json_reader.hpp"
+#include "scene/named_materials.hpp"
+#include "scene/scene_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace bem {
 namespace {
 
 constexpr std::size_t kLongestName = 1000;
 
-Material material_from(const JsonDocument& document) {
-  return read_material(JsonValue(document, 0));
-}
-
-}  // namespace
-
-Material read_material(const JsonValue& object) {
-  JsonReader reader(object, "a material");
+Material material_from(const JsonValue& value) {
+  JsonReader reader(value, "a material");
   Material material;
   material.name = reader.required("name").text();
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
@@ -26,12 +22,13 @@ Material read_material(const JsonValue& object) {
     throw error_at(reader.required("name").location(),
                    "a name has at most " + std::to_string(kLongestName) +
                        " bytes, none of which are control characters");
-  material.density = reader.required("density").positive();
+  material.density = reader.required("density").positive(dimension::density);
   material.poisson_ratio = reader.required("poisson_ratio").number_in(0, 0.5);
   const std::string modulus = reader.required_one_of({"shear_modulus", "youngs_modulus"});
-  material.shear_modulus = reader.required(modulus).positive();
+  material.shear_modulus = reader.required(modulus).positive(dimension::pressure);
   if (modulus == "youngs_modulus") material.shear_modulus /= 2 * (1 + material.poisson_ratio);
-  if (const auto dt = reader.optional("time_step")) material.time_step = dt->positive();
+  if (const auto dt = reader.optional("time_step"))
+    material.time_step = dt->positive(dimension::time);
   reader.finish();
   if (!std::isnormal(material.shear_speed()))
     throw error_at(reader.location(),
@@ -39,12 +36,25 @@ Material read_material(const JsonValue& object) {
   return material;
 }
 
+}  // namespace
+
 Material read_material(const std::string& path) {
-  return material_from(JsonDocument::read(path));
+  const JsonDocument document = JsonDocument::read(path);
+  return material_from(JsonValue(document, document.root()));
 }
 
 Material parse_material(const std::string& file, const std::string& text) {
-  return material_from(JsonDocument::parse(file, text));
+  const JsonDocument document = JsonDocument::parse(file, text);
+  return material_from(JsonValue(document, document.root()));
+}
+
+Material read_material_value(const JsonValue& value) {
+  if (value.kind() == JsonKind::object) return material_from(value);
+  if (value.kind() != JsonKind::string)
+    throw value.unexpected("a material (a name, a path, or an object)");
+  const FilePath path = read_path(value);
+  const std::string folder = std::filesystem::path(value.location().file).parent_path().string();
+  return at_place(value.location(), [&] { return find_material(path.written, folder); });
 }
 
 }  // namespace bem

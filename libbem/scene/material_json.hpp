@@ -13,10 +13,11 @@ namespace bem {
 /// ErrorCode::resources if the file may not be read.
 Material read_material(const std::string& path);
 
+/// The material of a scene: an object as in a material file, a name of scene/named_materials.hpp,
+/// or a path relative to the folder of the scene. Throws as read_material() and find_material().
+Material read_material_value(const JsonValue& value);
+
 /// The same from a text; `file` is the name used in messages.
 Material parse_material(const std::string& file, const std::string& text);
-
-/// The same from an object in another file.
-Material read_material(const JsonValue& object);
 
 }  // namespace bem

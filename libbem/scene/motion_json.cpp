@@ -5,11 +5,9 @@
 namespace bem {
 namespace {
 
-constexpr std::size_t kMaxNameBytes = 200;  // a file name has at most 255, suffix included
-
 /// Throws unless `value`, the time of an element of a list, is later than the one before it.
 double later_than(const std::optional<double>& before, const JsonValue& value) {
-  const double time = value.number();
+  const double time = value.number(dimension::time);
   if (before && !(time > *before))
     throw value.unexpected("a later time than in the element before");
   return time;
@@ -44,7 +42,7 @@ AxisAngle read_rotation(const JsonValue& value) {
   JsonReader reader(value, "a rotation");
   AxisAngle rotation;
   rotation.axis = reader.required("axis").direction();
-  rotation.angle = radians(reader.required("angle_deg").number());
+  rotation.angle = reader.required("angle_deg").angle();
   reader.finish();
   return rotation;
 }
@@ -57,9 +55,10 @@ Motion read_motion(const JsonValue& value) {
     Keyframe key;
     if (!motion.empty()) key.about = motion.back().about;
     before = key.time = later_than(before, reader.required("time"));
-    if (const auto translate = reader.optional("translate")) key.translate = translate->vec3();
+    if (const auto translate = reader.optional("translate"))
+      key.translate = translate->vec3(dimension::length);
     if (const auto rotate = reader.optional("rotate")) key.rotate = read_rotation(*rotate);
-    if (const auto about = reader.optional("about")) key.about = about->vec3();
+    if (const auto about = reader.optional("about")) key.about = about->vec3(dimension::length);
     reader.finish();
     motion.push_back(key);
   }

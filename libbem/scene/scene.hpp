@@ -122,6 +122,7 @@ struct Scene {
   std::vector<JointSpec> joints;
   ContactSpec contact;
   OutputSpec output;
+  std::vector<std::string> files;  ///< the scene file, and those that it includes
   Location location;
   Location time_step_location;
 };

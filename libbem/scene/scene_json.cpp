@@ -1,5 +1,6 @@
 #include "scene/scene_json.hpp"
 
+#include "scene/expansion.hpp"
 #include "scene/json_reader.hpp"
 #include "scene/scene_parts.hpp"
 
@@ -11,14 +12,18 @@ namespace {
 
 constexpr double kMaxSteps = std::numeric_limits<int>::max();
 
+constexpr std::size_t kMostThings = 100000;
+
 /// Bodies and obstacles share the names by which messages and results speak of them.
 class NamesInUse {
  public:
-  void add(const JsonValue& name) {
-    const auto [first, added] = first_.emplace(name.text(), name.location().pointer);
-    if (!added)
-      throw name.error("the name " + in_quotes(name.text()) + " is already used at " +
-                       first->second);
+  /// `place` is that of the name that `name` was made of.
+  void add(const std::string& name, const JsonValue& place) {
+    const auto [first, added] = first_.emplace(name, place.location());
+    if (added) return;
+    Location at = first->second;
+    if (at.file == place.location().file) at = {at.pointer, 0, 0, ""};
+    throw place.error("the name " + in_quotes(name) + " is already used at " + where(at));
   }
 
   /// Those that trajectories need in addition must be free.
@@ -28,67 +33,124 @@ class NamesInUse {
       if (body.render_mesh && taken != first_.end())
         throw error_at(body.location, "the simulated surface of the body " + in_quotes(body.name) +
                                           " would be written as " + in_quotes(taken->first) +
-                                          ", which is already used at " + taken->second);
+                                          ", which is already used at " + where(taken->second));
     }
   }
 
  private:
-  std::map<std::string, std::string> first_;
+  std::map<std::string, Location> first_;
 };
+
+/// Appends what `read` makes of the elements of a list of bodies or obstacles.
+template <class Thing, class Read>
+void read_things(const std::vector<JsonValue>& items, const Read& read, NamesInUse& names,
+                 std::vector<Thing>& things) {
+  for (const JsonValue& item : items)
+    for (Thing& thing : read(item)) {
+      names.add(thing.name, JsonReader(item, "an element").required("name"));
+      if (things.size() == kMostThings)
+        throw item.error("the scene has more than " + std::to_string(kMostThings) +
+                         " bodies or obstacles");
+      things.push_back(std::move(thing));
+    }
+}
+
+template <class Thing>
+ThingNames names_of(const std::vector<Thing>& things) {
+  ThingNames names;
+  for (const Thing& thing : things) names.emplace(thing.name, names.size());
+  return names;
+}
+
+/// What expanded_scene() has written into bodies and obstacles is checked there.
+void check_defaults(const JsonValue& value) {
+  JsonReader reader(value, "the defaults");
+  for (const char* key : {"body", "obstacle"})
+    if (const auto defaults = reader.optional(key))
+      JsonReader(*defaults, std::string("the defaults of ") + key);
+  reader.finish();
+}
 
 void read_timing(JsonReader& reader, Scene& scene) {
   scene.time_step_location = scene.location;
   if (const auto time_step = reader.optional("time_step")) {
     scene.time_step_location = time_step->location();
     if (time_step->kind() != JsonKind::string || time_step->text() != "auto")
-      scene.time_step = time_step->positive();
+      scene.time_step = time_step->positive(dimension::time);
   }
   const JsonValue duration = reader.required("duration");
-  scene.duration = duration.non_negative();
+  scene.duration = duration.non_negative(dimension::time);
   if (scene.time_step > 0 && !(scene.duration / scene.time_step <= kMaxSteps))
     throw duration.error("expected at most 2147483647 time steps, found a duration of more");
 }
 
+/// Completes where a body is placed with what the rest of the scene says.
+void complete_place(PlaceSpec& place, const Scene& scene, const ThingNames& obstacles) {
+  place.obstacle = thing_named(place.on, place.on_location, obstacles, "an obstacle");
+  const ObstacleSpec& obstacle = scene.obstacles[place.obstacle];
+  if (!place.gap) place.gap = scene.contact.tolerance;
+  if (const auto* plane = std::get_if<PlaneObstacle>(&obstacle.shape)) {
+    if (place.direction)
+      throw error_at(place.location,
+                     "\"direction\" is for obstacles with a mesh; a body comes to lie on a plane "
+                     "along its normal");
+    place.direction = -plane->normal;
+  }
+  if (place.direction) return;
+  if (scene.gravity.isZero(0))
+    throw error_at(place.location,
+                   "a scene without gravity needs a \"direction\" here, in which "
+                   "the body falls onto " +
+                       in_quotes(obstacle.name));
+  place.direction = scene.gravity.normalized();
+}
+
+void complete_places(Scene& scene) {
+  const ThingNames obstacles = names_of(scene.obstacles);
+  for (BodySpec& body : scene.bodies)
+    if (body.place && !body.place->on.empty()) complete_place(*body.place, scene, obstacles);
+}
+
 Scene scene_from(const JsonDocument& document) {
-  JsonReader reader(JsonValue(document, 0), "a scene");
+  JsonReader reader(JsonValue(document, document.root()), "a scene");
   Scene scene;
+  scene.files = document.files();
   scene.location = reader.location();
   const JsonValue version = reader.required("version");
-  if (version.number() != 1) throw version.unexpected("the version number 1");
+  if (version.kind() != JsonKind::number || version.number() != 1)
+    throw version.unexpected("the version number 1");
   read_timing(reader, scene);
-  if (const auto gravity = reader.optional("gravity")) scene.gravity = gravity->vec3();
+  if (const auto gravity = reader.optional("gravity"))
+    scene.gravity = gravity->vec3(dimension::acceleration);
 
   NamesInUse names;
-  for (const JsonValue& body : reader.required("bodies").items(1, "array of bodies")) {
-    scene.bodies.push_back(read_body(body));
-    names.add(JsonReader(body, "a body").required("name"));
-  }
+  const auto bodies = reader.required("bodies").items(1, "array of bodies");
+  read_things(bodies, read_bodies, names, scene.bodies);
   if (const auto obstacles = reader.optional("obstacles"))
-    for (const JsonValue& obstacle : obstacles->items(0, "array of obstacles")) {
-      scene.obstacles.push_back(read_obstacle(obstacle));
-      names.add(JsonReader(obstacle, "an obstacle").required("name"));
-    }
+    read_things(obstacles->items(0, "array of obstacles"), read_obstacles, names, scene.obstacles);
   if (const auto joints = reader.optional("joints")) {
-    BodyNames bodies;
-    for (const BodySpec& body : scene.bodies) bodies.emplace(body.name, bodies.size());
+    const ThingNames known = names_of(scene.bodies);
     for (const JsonValue& joint : joints->items(0, "array of joints"))
-      scene.joints.push_back(read_joint(joint, bodies));
+      scene.joints.push_back(read_joint(joint, known));
   }
   if (const auto contact = reader.optional("contact")) scene.contact = read_contact(*contact);
   if (const auto output = reader.optional("output")) scene.output = read_output(*output);
   if (scene.output.surface == OutputSurface::both) names.check_simulation_names(scene.bodies);
+  reader.optional("include");  // expanded_scene() has put it in
+  if (const auto defaults = reader.optional("defaults")) check_defaults(*defaults);
   reader.finish();
+  complete_places(scene);
   return scene;
 }
 
 }  // namespace
 
 Scene read_scene(const std::string& path) {
-  return scene_from(JsonDocument::read(path));
+  return scene_from(expanded_scene(JsonDocument::read(path)));
 }
 
 Scene parse_scene(const std::string& file, const std::string& text) {
-  return scene_from(JsonDocument::parse(file, text));
+  return scene_from(expanded_scene(JsonDocument::parse(file, text)));
 }
 
 }  // namespace bem

@@ -11,9 +11,7 @@
 
 namespace bem {
 
-inline double radians(double degrees) {
-  return degrees * (kPi / 180);
-}
+inline constexpr std::size_t kMaxNameBytes = 200;  // a file name has at most 255, suffix included
 
 /// A name of a body or obstacle: fit to be part of a file name and of an HDF5 path.
 std::string read_name(const JsonValue& value);
@@ -33,12 +31,18 @@ Motion read_motion(const JsonValue& value);
 /// [[time, factor], ...] with increasing times.
 Profile read_profile(const JsonValue& value);
 
-/// Where a body of some name is in the scene's list.
-using BodyNames = std::map<std::string, std::size_t>;
+/// Where a body or obstacle of some name is in the scene's list.
+using ThingNames = std::map<std::string, std::size_t>;
 
-BodySpec read_body(const JsonValue& value);
-ObstacleSpec read_obstacle(const JsonValue& value);
-JointSpec read_joint(const JsonValue& value, const BodyNames& bodies);
+/// The index of the thing with this name, which stands at `place`; `what` describes it in messages:
+/// "a body".
+std::size_t thing_named(const std::string& name, const Location& place, const ThingNames& things,
+                        const std::string& what);
+
+/// A body or an obstacle, or what "repeat" makes of it.
+std::vector<BodySpec> read_bodies(const JsonValue& value);
+std::vector<ObstacleSpec> read_obstacles(const JsonValue& value);
+JointSpec read_joint(const JsonValue& value, const ThingNames& bodies);
 ContactSpec read_contact(const JsonValue& value);
 OutputSpec read_output(const JsonValue& value);
 

@@ -2,19 +2,27 @@
 
 #include "base/error.hpp"
 #include "scene/scene.hpp"
+#include "scene/schema_marks.hpp"
+#include "scene/units.hpp"
 
 namespace bem {
 namespace {
 
-/// Puts names in place of that of their kind: "enum": "T" becomes "enum": ["a", "b"].
-void list_names(std::string& schema, const std::string& kind,
-                const std::vector<std::string>& choices) {
-  const std::string mark = "\"enum\": \"" + kind + "\"";
-  std::string names;
-  for (const std::string& name : choices) names += (names.empty() ? "\"" : ", \"") + name + "\"";
-  const std::size_t at = schema.find(mark);
-  require(at != std::string::npos, "the schema has every enumeration of scenes");
-  schema.replace(at, mark.size(), "\"enum\": [" + names + "]");
+/// The defaults of bodies and obstacles have their members.
+void write_defaults(std::string& schema) {
+  const std::string properties = "\"properties\": {";
+  const auto all_after = [&](const std::string& mark) {
+    const std::size_t at = schema.find(mark);
+    require(at != std::string::npos, "the schema has every mark");
+    return members_after(schema.substr(at), properties);
+  };
+  const std::string body = all_after("    \"body\": {\n      \"type\"");
+  const std::string obstacle =
+      "\"plane\": {\"$ref\": \"#/$defs/plane\"}," +
+      all_after(properties +
+                "\n            \"name\": {\"$ref\": \"#/$defs/name\"},\n            \"mesh\"");
+  replace_mark(schema, "\"properties\": \"of body\"", properties + body + "}");
+  replace_mark(schema, "\"properties\": \"of obstacle\"", properties + obstacle + "}");
 }
 
 const char* type_of(Setting::Kind kind) {
@@ -46,6 +54,7 @@ void list_settings(std::string& schema) {
 }
 
 std::string with_names(std::string schema) {
+  write_defaults(schema);
   list_settings(schema);
   list_names(schema, "FrameMotion", choice_names<FrameMotion>());
   list_names(schema, "Correction", choice_names<Correction>());
@@ -54,6 +63,8 @@ std::string with_names(std::string schema) {
   list_names(schema, "OutputFormat", output_format_names());
   list_names(schema, "OutputField", choice_names<OutputField>());
   list_names(schema, "OutputSurface", choice_names<OutputSurface>());
+  write_pattern(schema, "quantity", quantity_pattern(false));
+  write_pattern(schema, "non-negative quantity", quantity_pattern(true));
   return schema;
 }
 
@@ -63,37 +74,53 @@ const std::string& scene_schema() {
   static const std::string schema = with_names(R"json({
   "$schema": "https://json-schema.org/draft/2020-12/schema",
   "title": "Scene of bemsim, version 1",
-  "description": "SI units. Angles are in degrees where the key says so. Paths are relative to the scene file.",
+  "description": "Numbers are in SI units, strings have a unit: \"12 mm\". Angles are in degrees where the key says so. Paths are relative to the scene file.",
   "type": "object",
-  "required": ["version", "duration", "bodies"],
+  "anyOf": [{"required": ["version", "duration", "bodies"]}, {"required": ["include"]}],
   "additionalProperties": false,
   "properties": {
     "version": {"description": "Version of this format.", "const": 1},
     "time_step": {
       "description": "Time step [s]; that of every archive of the scene. auto: that of the archives, else from the speed of waves and the edges of the meshes; default auto.",
-      "oneOf": [{"type": "number", "exclusiveMinimum": 0}, {"const": "auto"}]
+      "anyOf": [{"$ref": "#/$defs/positive"}, {"const": "auto"}]
     },
-    "duration": {"description": "Simulated time [s].", "type": "number", "minimum": 0},
+    "duration": {"description": "Simulated time [s].", "$ref": "#/$defs/non_negative"},
     "gravity": {"description": "Acceleration of gravity [m/s^2]; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
     "bodies": {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/body"}},
     "obstacles": {"description": "Rigid surroundings; default none.", "type": "array", "items": {"$ref": "#/$defs/obstacle"}},
     "joints": {"description": "Connections of bodies; default none.", "type": "array", "items": {"$ref": "#/$defs/joint"}},
     "contact": {"$ref": "#/$defs/contact"},
-    "output": {"$ref": "#/$defs/output"}
+    "output": {"$ref": "#/$defs/output"},
+    "include": {"$ref": "#/$defs/include"},
+    "defaults": {
+      "description": "Members of all bodies or obstacles that do not have them.",
+      "type": "object", "additionalProperties": false,
+      "properties": {
+        "body": {"type": "object", "additionalProperties": false, "properties": "of body"},
+        "obstacle": {"type": "object", "additionalProperties": false, "properties": "of obstacle"}
+      }
+    }
   },
   "$defs": {
-    "vec3": {"description": "[x, y, z]", "type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3},
+    "quantity": {"description": "A number in SI units (in degrees where the key says so), or a string with a unit: \"12 mm\".", "type": ["number", "string"], "pattern": "quantity"},
+    "positive": {"description": "A quantity > 0.", "type": ["number", "string"], "exclusiveMinimum": 0, "pattern": "non-negative quantity"},
+    "non_negative": {"description": "A quantity >= 0.", "type": ["number", "string"], "minimum": 0, "pattern": "non-negative quantity"},
+    "vec3": {"description": "[x, y, z]", "type": "array", "items": {"$ref": "#/$defs/quantity"}, "minItems": 3, "maxItems": 3},
     "name": {
       "description": "Name of a body or obstacle, used once in the scene and fit for file names: at most 200 bytes, no '/', no control characters.",
       "type": "string", "maxLength": 200, "pattern": "^[^/\\u0000-\\u001f\\u007f]+$", "not": {"enum": [".", ".."]}
     },
     "path": {"description": "Path of a file, relative to the scene file.", "type": "string", "minLength": 1, "pattern": "^[^\\u0000]+$"},
-    "friction": {"description": "Coefficient of friction; default 0.", "type": "number", "minimum": 0},
+    "include": {
+      "description": "JSON files whose members are put in; those of this object win. Paths are relative to this file.",
+      "oneOf": [{"$ref": "#/$defs/path"}, {"type": "array", "items": {"$ref": "#/$defs/path"}}]
+    },
+    "friction": {"description": "Coefficient of friction; default 0.", "$ref": "#/$defs/non_negative"},
     "scale": {
       "description": "Factor of the mesh's coordinates, one for all axes or one for each; default 1.",
       "oneOf": [
-        {"type": "number", "exclusiveMinimum": 0},
-        {"type": "array", "items": {"type": "number", "exclusiveMinimum": 0}, "minItems": 3, "maxItems": 3}
+        {"$ref": "#/$defs/positive"},
+        {"type": "array", "items": {"$ref": "#/$defs/positive"}, "minItems": 3, "maxItems": 3}
       ]
     },
     "rotation": {
@@ -101,7 +128,7 @@ const std::string& scene_schema() {
       "type": "object", "required": ["axis", "angle_deg"], "additionalProperties": false,
       "properties": {
         "axis": {"description": "Direction of any length but zero.", "$ref": "#/$defs/vec3"},
-        "angle_deg": {"description": "Angle [degrees], counter-clockwise seen against the axis.", "type": "number"}
+        "angle_deg": {"description": "Angle [degrees], counter-clockwise seen against the axis.", "$ref": "#/$defs/quantity"}
       }
     },
     "indices": {"description": "0-based indices.", "type": "array", "minItems": 1, "items": {"type": "integer", "minimum": 0, "maximum": 2147483647}},
@@ -113,6 +140,16 @@ const std::string& scene_schema() {
         "max": {"description": "Upper corner [m].", "$ref": "#/$defs/vec3"}
       }
     },
+    "sphere": {
+      "description": "Ball in mesh coordinates.",
+      "type": "object", "required": ["center", "radius"], "additionalProperties": false,
+      "properties": {
+        "center": {"description": "Centre [m].", "$ref": "#/$defs/vec3"},
+        "radius": {"description": "Radius [m].", "$ref": "#/$defs/positive"}
+      }
+    },
+    "normal": {"description": "Only triangles whose outward normal is near this direction (mesh coordinates).", "$ref": "#/$defs/vec3"},
+    "normal_tolerance": {"description": "Largest angle between the two [degrees]; default 30.", "$ref": "#/$defs/quantity", "minimum": 0, "maximum": 180},
     "selection": {
       "description": "Chooses vertices or triangles of the body's mesh.",
       "oneOf": [
@@ -130,9 +167,31 @@ const std::string& scene_schema() {
           "dependentRequired": {"normal_tolerance_deg": ["normal"]},
           "properties": {
             "box": {"$ref": "#/$defs/box"},
-            "normal": {"description": "Only triangles whose outward normal is near this direction (mesh coordinates).", "$ref": "#/$defs/vec3"},
-            "normal_tolerance_deg": {"description": "Largest angle between the two [degrees]; default 30.", "type": "number", "minimum": 0, "maximum": 180}
+            "normal": {"$ref": "#/$defs/normal"},
+            "normal_tolerance_deg": {"$ref": "#/$defs/normal_tolerance"}
           }
+        },
+        {
+          "type": "object", "required": ["sphere"], "additionalProperties": false,
+          "dependentRequired": {"normal_tolerance_deg": ["normal"]},
+          "properties": {
+            "sphere": {"$ref": "#/$defs/sphere"},
+            "normal": {"$ref": "#/$defs/normal"},
+            "normal_tolerance_deg": {"$ref": "#/$defs/normal_tolerance"}
+          }
+        },
+        {
+          "type": "object", "required": ["plane"], "additionalProperties": false,
+          "dependentRequired": {"normal_tolerance_deg": ["normal"]},
+          "properties": {
+            "plane": {"description": "What lies on the side that the normal points to (mesh coordinates).", "$ref": "#/$defs/plane"},
+            "normal": {"$ref": "#/$defs/normal"},
+            "normal_tolerance_deg": {"$ref": "#/$defs/normal_tolerance"}
+          }
+        },
+        {
+          "type": "object", "required": ["group"], "additionalProperties": false,
+          "properties": {"group": {"description": "Name of one of the body's groups.", "type": "string"}}
         }
       ]
     },
@@ -142,7 +201,7 @@ const std::string& scene_schema() {
       "items": {
         "type": "object", "required": ["time"], "additionalProperties": false,
         "properties": {
-          "time": {"description": "Time [s].", "type": "number"},
+          "time": {"description": "Time [s].", "$ref": "#/$defs/quantity"},
           "translate": {"description": "Displacement [m], world axes; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
           "rotate": {"description": "Rotation, world axes; default none.", "$ref": "#/$defs/rotation"},
           "about": {"description": "Centre of the rotation [m], world coordinates; default that of the keyframe before, [0, 0, 0] in the first.", "$ref": "#/$defs/vec3"}
@@ -152,14 +211,14 @@ const std::string& scene_schema() {
     "profile": {
       "description": "Factor over time, [[time [s], factor], ...] with increasing times: linear in between, constant before the first and after the last.",
       "type": "array", "minItems": 1,
-      "items": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}
+      "items": {"type": "array", "items": {"$ref": "#/$defs/quantity"}, "minItems": 2, "maxItems": 2}
     },
     "handle": {
       "type": "object", "required": ["select"], "additionalProperties": false,
       "properties": {
         "select": {"$ref": "#/$defs/selection"},
         "motion": {"description": "Moves the vertices away from their initial world positions; default none: they are held.", "$ref": "#/$defs/motion"},
-        "release_time": {"description": "The vertices are free after this time [s]; default never.", "type": "number", "minimum": 0}
+        "release_time": {"description": "The vertices are free after this time [s]; default never.", "$ref": "#/$defs/non_negative"}
       }
     },
     "traction": {
@@ -167,7 +226,7 @@ const std::string& scene_schema() {
       "properties": {
         "select": {"$ref": "#/$defs/selection"},
         "traction": {"description": "Force per area of the undeformed surface [Pa], world axes.", "$ref": "#/$defs/vec3"},
-        "pressure": {"description": "Pressure [Pa], against the outward normal; it turns with the body's frame.", "type": "number"},
+        "pressure": {"description": "Pressure [Pa], against the outward normal; it turns with the body's frame.", "$ref": "#/$defs/quantity"},
         "profile": {"$ref": "#/$defs/profile"},
         "follow": {"description": "Whether the load turns with the body's frame; default false for a traction, always true for a pressure.", "type": "boolean"}
       },
@@ -177,9 +236,7 @@ const std::string& scene_schema() {
       ]
     },
     "body": {
-      "type": "object", "required": ["name"], "additionalProperties": false,
-      "anyOf": [{"required": ["mesh", "material"]}, {"required": ["archive"], "not": {"required": ["precompute"]}}],
-      "dependentRequired": {"mesh": ["material"], "material": ["mesh"], "mesh_scale": ["mesh"], "precompute": ["mesh"]},
+      "type": "object", "additionalProperties": false, "not": {"required": ["position", "place"]},
       "properties": {
         "name": {"$ref": "#/$defs/name"},
         "mesh": {"description": "Closed mesh of the body, from which its matrices are computed where there is no archive.", "$ref": "#/$defs/path"},
@@ -199,7 +256,11 @@ const std::string& scene_schema() {
         "friction": {"$ref": "#/$defs/friction"},
         "fixed": {"description": "Vertices that stay where they are.", "type": "array", "items": {"$ref": "#/$defs/selection"}},
         "handles": {"description": "Vertices with prescribed positions.", "type": "array", "items": {"$ref": "#/$defs/handle"}},
-        "tractions": {"description": "Loads on triangles.", "type": "array", "items": {"$ref": "#/$defs/traction"}}
+        "tractions": {"description": "Loads on triangles.", "type": "array", "items": {"$ref": "#/$defs/traction"}},
+        "groups": {"description": "Selections by name, for {\"group\": NAME}.", "type": "object", "additionalProperties": {"$ref": "#/$defs/selection"}},
+        "place": {"$ref": "#/$defs/place"},
+        "repeat": {"$ref": "#/$defs/repeat"},
+        "include": {"$ref": "#/$defs/include"}
       }
     },
     "material": {
@@ -207,11 +268,11 @@ const std::string& scene_schema() {
       "type": "object", "required": ["name", "density", "poisson_ratio"], "additionalProperties": false,
       "properties": {
         "name": {"description": "Any text.", "type": "string", "maxLength": 1000, "pattern": "^[^\\u0000-\\u001f\\u007f]*$"},
-        "density": {"description": "Mass per volume [kg/m^3].", "type": "number", "exclusiveMinimum": 0},
+        "density": {"description": "Mass per volume [kg/m^3].", "$ref": "#/$defs/positive"},
         "poisson_ratio": {"description": "0.5 is incompressible.", "type": "number", "minimum": 0, "maximum": 0.5},
-        "shear_modulus": {"description": "[Pa]", "type": "number", "exclusiveMinimum": 0},
-        "youngs_modulus": {"description": "[Pa]", "type": "number", "exclusiveMinimum": 0},
-        "time_step": {"description": "Time step of archives [s], where none is given.", "type": "number", "exclusiveMinimum": 0}
+        "shear_modulus": {"description": "[Pa]", "$ref": "#/$defs/positive"},
+        "youngs_modulus": {"description": "[Pa]", "$ref": "#/$defs/positive"},
+        "time_step": {"description": "Time step of archives [s], where none is given.", "$ref": "#/$defs/positive"}
       },
       "oneOf": [{"required": ["shear_modulus"]}, {"required": ["youngs_modulus"]}]
     },
@@ -219,18 +280,53 @@ const std::string& scene_schema() {
       "description": "Settings of the matrices: the options of bemprecomp, with _ for -.",
       "type": "object", "additionalProperties": false, "properties": "settings"
     },
+    "place": {
+      "description": "Decides on the position by what the body looks like, turned by its rotation; instead of \"position\".",
+      "type": "object", "additionalProperties": false,
+      "anyOf": [{"required": ["on"]}, {"required": ["center"]}],
+      "dependentRequired": {"gap": ["on"], "direction": ["on"]},
+      "properties": {
+        "center": {"description": "World position of the centre of the box around the body [m]; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
+        "on": {"description": "Name of the obstacle that the body is moved to.", "type": "string", "minLength": 1},
+        "gap": {"description": "What is left between the two [m]; default the tolerance of contact.", "$ref": "#/$defs/non_negative"},
+        "direction": {"description": "In which the body comes to an obstacle with a mesh; default that of gravity.", "$ref": "#/$defs/vec3"}
+      }
+    },
+    "repeat": {
+      "description": "Makes copies: NAME-0, NAME-1, ... or NAME-0-0-0, NAME-0-0-1, ...",
+      "type": "object", "required": ["count", "spacing"], "additionalProperties": false,
+      "properties": {
+        "count": {
+          "description": "Copies in a row, or along the three axes; at most 10000.",
+          "oneOf": [{"$ref": "#/$defs/copies"}, {"type": "array", "items": {"$ref": "#/$defs/copies"}, "minItems": 3, "maxItems": 3}]
+        },
+        "spacing": {"description": "From one copy in a row to the next, or from one to the next along each axis [m].", "$ref": "#/$defs/vec3"},
+        "jitter": {
+          "description": "Random displacements of the copies; default none.",
+          "type": "object", "additionalProperties": false,
+          "properties": {
+            "position": {"description": "Largest displacement along each axis [m]; default 0.", "$ref": "#/$defs/non_negative"},
+            "rotation_deg": {"description": "Largest rotation, about any axis [degrees]; default 0.", "$ref": "#/$defs/quantity", "minimum": 0, "maximum": 180},
+            "seed": {"description": "Other displacements for other seeds; default 0.", "type": "integer", "minimum": 0, "maximum": 2147483647}
+          }
+        }
+      }
+    },
+    "copies": {"type": "integer", "minimum": 1, "maximum": 10000},
     "obstacle": {
-      "oneOf": [
+      "anyOf": [
         {
-          "type": "object", "required": ["name", "plane"], "additionalProperties": false,
+          "type": "object", "additionalProperties": false,
           "properties": {
             "name": {"$ref": "#/$defs/name"},
             "plane": {"$ref": "#/$defs/plane"},
-            "friction": {"$ref": "#/$defs/friction"}
+            "friction": {"$ref": "#/$defs/friction"},
+            "repeat": {"$ref": "#/$defs/repeat"},
+            "include": {"$ref": "#/$defs/include"}
           }
         },
         {
-          "type": "object", "required": ["name", "mesh"], "additionalProperties": false,
+          "type": "object", "additionalProperties": false,
           "properties": {
             "name": {"$ref": "#/$defs/name"},
             "mesh": {"description": "Any set of triangles: closed parts are solid, both sides of all others hold.", "$ref": "#/$defs/path"},
@@ -238,7 +334,9 @@ const std::string& scene_schema() {
             "position": {"description": "World position of the mesh's origin [m]; default [0, 0, 0].", "$ref": "#/$defs/vec3"},
             "rotation": {"description": "Initial orientation; default none.", "$ref": "#/$defs/rotation"},
             "motion": {"$ref": "#/$defs/motion"},
-            "friction": {"$ref": "#/$defs/friction"}
+            "friction": {"$ref": "#/$defs/friction"},
+            "repeat": {"$ref": "#/$defs/repeat"},
+            "include": {"$ref": "#/$defs/include"}
           }
         }
       ]
@@ -284,14 +382,14 @@ const std::string& scene_schema() {
       "type": "object", "required": ["body"], "additionalProperties": false,
       "properties": {"body": {"description": "Name of a body of the scene.", "type": "string"}}
     },
-    "joint_tolerance": {"description": "Distance up to which points count as equal [m]; default 1e-6.", "type": "number", "exclusiveMinimum": 0},
+    "joint_tolerance": {"description": "Distance up to which points count as equal [m]; default 1e-6.", "$ref": "#/$defs/positive"},
     "contact": {
       "description": "Contact and friction; without this object there is none.",
       "type": "object", "additionalProperties": false,
       "properties": {
         "enabled": {"description": "Whether contact is computed; default true.", "type": "boolean"},
         "self": {"description": "Also contact of a body with itself; default false.", "type": "boolean"},
-        "tolerance": {"description": "Error allowed in the gaps [m]; default 1e-6.", "type": "number", "exclusiveMinimum": 0},
+        "tolerance": {"description": "Error allowed in the gaps [m]; default 1e-6.", "$ref": "#/$defs/positive"},
         "friction_combine": {"description": "Coefficient between two surfaces from theirs; default max.", "enum": "FrictionCombine"},
         "solver": {"description": "How the contact forces are found; default newton.", "enum": "FrictionMethod"}
       }

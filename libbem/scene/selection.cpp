@@ -22,16 +22,32 @@ bool in_box(const Selection& s, const Vec3& p) {
   return (p.array() >= s.box_min.array()).all() && (p.array() <= s.box_max.array()).all();
 }
 
-/// Which nodes a selection of vertices or a box chooses one by one.
+/// Whether a box, a sphere or the side of a plane contains a point; their bounds included.
+bool is_inside(const Selection& s, const Vec3& p) {
+  switch (s.kind) {
+    case Selection::Kind::box:
+      return in_box(s, p);
+    case Selection::Kind::sphere:
+      return (p - s.point).norm() <= s.radius;
+    case Selection::Kind::plane:
+      return s.side.dot(p - s.point) >= 0;
+    default:
+      return false;
+  }
+}
+
+/// Which nodes a selection of vertices or of a region chooses one by one.
 std::vector<char> chosen_nodes(const BodyGeometry& g, const Selection& s) {
+  if (s.kind == Selection::Kind::group)
+    throw error_at(s.location, "there is no group " + in_quotes(s.group));
   std::vector<char> chosen(g.nodes.vertices.size(), s.kind == Selection::Kind::all);
   if (s.kind == Selection::Kind::vertices) {
     check_indices(s, g.input.vertices.size(), "vertex");
     for (int v : s.indices)
       if (g.node_of_vertex[v] >= 0) chosen[g.node_of_vertex[v]] = 1;
-  } else if (s.kind == Selection::Kind::box) {
+  } else {
     for (std::size_t v = 0; v < g.input.vertices.size(); ++v)
-      if (g.node_of_vertex[v] >= 0 && in_box(s, g.input.vertices[v]))
+      if (g.node_of_vertex[v] >= 0 && is_inside(s, g.input.vertices[v]))
         chosen[g.node_of_vertex[v]] = 1;
   }
   return chosen;
@@ -94,6 +110,7 @@ std::string to_text(const Selection& s) {
   std::string text = std::to_string(static_cast<int>(s.kind));
   for (int index : s.indices) text += " " + std::to_string(index);
   text += " " + to_text(s.box_min) + " " + to_text(s.box_max);
+  text += " " + to_text(s.point) + " " + to_text(s.radius) + " " + to_text(s.side);
   if (s.normal) text += " " + to_text(*s.normal) + " " + to_text(s.normal_tolerance);
   return text;
 }

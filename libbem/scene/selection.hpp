@@ -5,10 +5,10 @@
 
 namespace bem {
 
-/// Nodes that a selection picks, ascending. Triangles stand for their corners; a box picks the
-/// vertices in it, with a normal those that belong to a triangle with all corners in the box and
-/// facing that way. Throws ErrorCode::invalid_input, naming the place in the scene, if an index is
-/// out of range or nothing is picked.
+/// Nodes that a selection picks, ascending. Triangles stand for their corners; a box, a sphere and
+/// the side of a plane pick the vertices in them, with a normal those that belong to a triangle
+/// with all corners in them and facing that way. Throws ErrorCode::invalid_input, naming the place
+/// in the scene, if an index is out of range or nothing is picked.
 std::vector<int> select_nodes(const BodyGeometry& geometry, const Selection& selection);
 
 /// Triangles (of geometry.nodes) that a selection picks, ascending: those with all corners chosen,

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "mesh/describe.hpp"
 #include "scene/location.hpp"
+#include "simulation/placement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ std::shared_ptr<const BodyModel> rigid_with_scheme(const BodyModel& model, const
 /// The steps of load_scene().
 class SceneLoader {
  public:
-  SceneLoader(const Scene& scene, ModelSource& source) : scene_(scene), source_(source) {
+  SceneLoader(Scene& scene, ModelSource& source) : scene_(scene), source_(source) {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       by_archive_[scene.bodies[b].archive.resolved].push_back(static_cast<int>(b));
   }
@@ -87,7 +88,7 @@ class SceneLoader {
   std::vector<int> touched_nodes(const Users& users, const BodyModel& model) const;
   void make_bodies();
 
-  const Scene& scene_;
+  Scene& scene_;
   ModelSource& source_;
   std::map<std::string, Users> by_archive_;
   std::map<std::string, SharedModel> models_;
@@ -106,6 +107,7 @@ void SceneLoader::load_models() {
       check_archive(scene_, scene_.bodies[b], shared.model->kind, shared.model->discretisation);
     }
   }
+  place_bodies(scene_, geometries, source_);
   out_.plan = plan_joints(scene_, geometries);
 }
 
@@ -222,7 +224,7 @@ std::vector<Scheme> body_schemes(const Scene& scene,
   return schemes;
 }
 
-LoadedScene load_scene(const Scene& scene, ModelSource& source) {
+LoadedScene load_scene(Scene& scene, ModelSource& source) {
   return SceneLoader(scene, source).run();
 }
 

@@ -39,9 +39,10 @@ struct LoadedScene {
   std::size_t archives = 0;               ///< that they come from
 };
 
-/// Loads every archive once. The scene must outlive what is returned. Throws ErrorCode::archive,
+/// Loads every archive once, and puts bodies where the scene places them
+/// (simulation/placement.hpp). The scene must outlive what is returned. Throws ErrorCode::archive,
 /// naming the place in the scene, if an archive does not fit it.
-LoadedScene load_scene(const Scene& scene, ModelSource& source);
+LoadedScene load_scene(Scene& scene, ModelSource& source);
 
 /// Throws ErrorCode::archive, naming the place in the scene, if the archive of a body was made for
 /// another time step than the scene's, or for another correction than the body's.

@@ -44,9 +44,20 @@ void materials(const fs::path& folder) {
   write(folder / "young.json",
         R"({"name": "stahl \u00e9", "density": 7.8e3, "poisson_ratio": 0.5, "youngs_modulus": 2e11,
             "time_step": 0.001})");
+  write(
+      folder / "units.json",
+      R"({"name": "x", "density": "1 g/cm^3", "poisson_ratio": "30 %", "shear_modulus": "2 MPa"})");
 }
 
 void scenes(const fs::path& folder, const fs::path& from) {
+  write(folder / "language.json",
+        R"({"version": 1, "time_step": "2 ms", "duration": "1 s", "gravity": [0, "-9.81 m/s^2", 0],
+            "include": [], "defaults": {"body": {"friction": "5 %"}, "obstacle": {"friction": 1}},
+            "bodies": [{"name": "a", "archive": "a", "place": {"on": "f", "gap": "1 mm"},
+              "repeat": {"count": [2, 1, 2], "spacing": [1, 1, 1],
+                         "jitter": {"position": 0.1, "rotation_deg": 9, "seed": 1}},
+              "groups": {"t": {"sphere": {"center": [0, 0, 0], "radius": 1}}}, "fixed": [{"group": "t"}]}],
+            "obstacles": [{"name": "f", "plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}}]})");
   constexpr std::size_t kMostBytes = 6000;
   for (const auto& entry : fs::recursive_directory_iterator(from)) {
     if (entry.path().extension() != ".json") continue;

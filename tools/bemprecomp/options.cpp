@@ -5,6 +5,7 @@
 #include "common/command_line.hpp"
 #include "common/file_roles.hpp"
 #include "mesh/describe.hpp"
+#include "scene/named_materials.hpp"
 
 #include <cmath>
 
@@ -50,7 +51,7 @@ void add_options(CLI::App& app, Typed& t) {
   Options& o = t.options;
   app.add_option("MESH", o.mesh, "closed triangle mesh in any format that assimp reads")
       ->type_name("");
-  app.add_option("MATERIAL", o.material, "material JSON")->type_name("");
+  app.add_option("MATERIAL", o.material, "material JSON, or the name of a material")->type_name("");
   add_settings(app, o);
   app.option_defaults()->group("Run");
   app.add_option("-o,--output", o.output, "archive to write")->type_name("BODY.bem");
@@ -75,7 +76,7 @@ void add_options(CLI::App& app, Typed& t) {
 
 void check_inputs(const Options& o) {
   if (o.mesh.empty() || o.material.empty())
-    refuse("give a mesh and a material file: bemprecomp MESH MATERIAL.json -o BODY.bem");
+    refuse("give a mesh and a material: bemprecomp MESH MATERIAL -o BODY.bem");
   if (o.output.empty() && !o.dry_run) refuse("name the archive to write: -o BODY.bem");
   if (!(std::isfinite(o.mesh_scale) && o.mesh_scale > 0))
     refuse("--mesh-scale must be a positive number, not " + to_text(o.mesh_scale));
@@ -86,7 +87,8 @@ void check_inputs(const Options& o) {
 void check_distinct_files(const Options& o) {
   FileRoles files;
   for (const std::string& path : o.archives) files.reads(path);
-  for (const std::string& path : {o.mesh, o.material}) files.reads(path);
+  files.reads(o.mesh);
+  if (!is_named_material(o.material)) files.reads(o.material);
   if (o.settings.has_load_file()) files.reads(o.settings.loads);
   for (const std::string& path : {o.output, o.stats, o.log_file}) files.writes(path);
   files.check();
@@ -126,10 +128,10 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   CLI::App app("Computes the matrices of an elastic body from its surface mesh and material.",
                "bemprecomp");
   set_up_help(app,
-              "  bemprecomp MESH MATERIAL.json -o BODY.bem [options]\n"
+              "  bemprecomp MESH MATERIAL -o BODY.bem [options]\n"
               "  bemprecomp --info A.bem [--json] | --verify A.bem | --diff A.bem B.bem\n");
   add_options(app, typed);
-  if (!parse_command_line(app, argc, argv, "one mesh and one material file are enough"))
+  if (!parse_command_line(app, argc, argv, "one mesh and one material are enough"))
     return std::nullopt;
   return checked(app, typed);
 }

@@ -9,7 +9,7 @@
 #include "mesh/mesh_io.hpp"
 #include "model/memory_estimate.hpp"
 #include "model/model_assembly.hpp"
-#include "scene/material_json.hpp"
+#include "scene/named_materials.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -96,7 +96,7 @@ double seconds_per_byte_of_products() {
 
 Plan make_plan(const Options& o) {
   Plan plan;
-  plan.inputs = {o.mesh, o.mesh_scale, read_material(o.material), o.material, o.settings, {}};
+  plan.inputs = {o.mesh, o.mesh_scale, find_material(o.material), o.material, o.settings, {}};
   plan.body = plan_body(read_mesh(o.mesh), plan.inputs, SettingStyle::option);
   if (o.settings.model == ModelKind::rigid)
     plan.archive_bytes = archive_bytes(plan.body.geometry, plan.body.options, 0);

@@ -15,7 +15,16 @@
 namespace bem {
 namespace {
 
-/// The scene's JSON with its keys in a fixed order and the output as the command line has it.
+std::string file_digest(const std::string& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  if (!file || unknown) throw Error(ErrorCode::resources, path + ": cannot be read");
+  return tree_digest(file.get(), 0, size, path);
+}
+
+/// The scene's JSON with its keys in a fixed order and the output as the command line has it, and
+/// what tells changes of the files that it includes.
 std::string scene_text(const Plan& plan, const Options& options) {
   std::string text;
   check_io(read_all(options.scene, text), options.scene, "cannot be read again");
@@ -33,15 +42,10 @@ std::string scene_text(const Plan& plan, const Options& options) {
                      {"frames", frames},
                      {"fields", output.fields},
                      {"surface", output.surface}};
-  return scene.dump();
-}
-
-std::string file_digest(const std::string& path) {
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  std::error_code unknown;
-  const auto size = std::filesystem::file_size(path, unknown);
-  if (!file || unknown) throw Error(ErrorCode::resources, path + ": cannot be read");
-  return tree_digest(file.get(), 0, size, path);
+  std::string text_and_digests = scene.dump();
+  const std::vector<std::string>& files = plan.scene.files;
+  for (std::size_t i = 1; i < files.size(); ++i) text_and_digests += file_digest(files[i]);
+  return text_and_digests;
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ void check_files(const Options& options, const bem::Scene* scene) {
   bem::FileRoles files;
   files.reads(options.scene);
   if (scene) {
+    for (const std::string& file : scene->files) files.reads(file);
     for (const bem::BodySpec& body : scene->bodies) {
       files.reads(body.archive.resolved);
       if (body.source) files.reads(body.source->mesh.resolved);

@@ -8,6 +8,7 @@
 #include "render_meshes.hpp"
 #include "scene/motion.hpp"
 #include "scene/selection.hpp"
+#include "simulation/placement.hpp"
 #include "simulation/simulation.hpp"
 
 #include <algorithm>
@@ -260,6 +261,7 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
     deformable.push_back(
         body.archive->kind() == ModelKind::rigid ? nullptr : &body.archive->discretisation());
   body_schemes(plan->scene, deformable);
+  place_bodies(plan->scene, geometries, source);
   JointPlan joints = plan_joints(plan->scene, geometries);
   for (const Joint& joint : joints.joints)
     if (joint.prescribed)

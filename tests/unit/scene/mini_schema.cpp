@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <regex>
 #include <stdexcept>
 
 namespace bem::test {
@@ -20,8 +22,8 @@ bool has_type(const Json& value, const std::string& type) {
   throw std::runtime_error("schema type " + type);
 }
 
-/// `types`: one or a list of them.
-bool has_types(const Json& value, const Json& types) {
+/// Whether the value has the type, or one of the types.
+bool has_a_type(const Json& value, const Json& types) {
   if (types.is_string()) return has_type(value, types);
   return std::any_of(types.begin(), types.end(),
                      [&](const Json& type) { return has_type(value, type); });
@@ -37,7 +39,11 @@ bool has_twins(const Json& array) {
 const std::string kNoControls = "^[^\\u0000-\\u001f\\u007f]*$";
 
 bool matches(const std::string& text, const std::string& pattern) {
-  // std::regex has no zero character in its classes; the patterns of the schema are few.
+  if (pattern.find('%') != std::string::npos) {  // that of quantities
+    static std::map<std::string, std::regex> compiled;
+    return std::regex_search(text, compiled.try_emplace(pattern, pattern).first->second);
+  }
+  // std::regex has no zero character in its classes; the other patterns of the schema are few.
   const auto allowed = [&](char c) {
     const auto byte = static_cast<unsigned char>(c);
     if (pattern == "^[^\\u0000]+$") return byte != 0;
@@ -83,7 +89,7 @@ std::string MiniSchema::check_keyword(const Json& schema, const std::string& key
     return "";
   if (keyword == "$ref")
     return check(root_.at(Json::json_pointer(rule.get<std::string>().substr(1))), value);
-  if (keyword == "type") return has_types(value, rule) ? "" : "type of " + value.dump();
+  if (keyword == "type") return has_a_type(value, rule) ? "" : "type of " + value.dump();
   if (keyword == "oneOf" || keyword == "anyOf" || keyword == "not")
     return check_combination(keyword, rule, value);
   if (keyword == "items" && value.is_array())
@@ -108,7 +114,10 @@ std::string MiniSchema::check_object(const Json& schema, const std::string& keyw
         if (value.contains(key) && !value.contains(other)) return "missing " + other.dump();
   for (const auto& [key, member] : value.items()) {
     const bool known = schema.contains("properties") && schema.at("properties").contains(key);
-    if (keyword == "additionalProperties" && rule == false && !known) return "unknown " + key;
+    if (keyword == "additionalProperties" && !known) {
+      if (rule == false) return "unknown " + key;
+      if (const std::string mistake = check(rule, member); !mistake.empty()) return mistake;
+    }
     if (keyword != "properties" || !known) continue;
     const std::string mistake = check(rule.at(key), member);
     if (!mistake.empty()) return mistake;
@@ -121,7 +130,7 @@ std::string MiniSchema::check_combination(const std::string& keyword, const Json
   if (keyword == "not") return check(rule, value).empty() ? "not of " + value.dump() : "";
   int valid = 0;
   for (const Json& option : rule) valid += check(option, value).empty() ? 1 : 0;
-  return valid == 1 || (valid > 1 && keyword == "anyOf")
+  return valid == 1 || (valid > 0 && keyword == "anyOf")
              ? ""
              : std::to_string(valid) + " options for " + value.dump();
 }
@@ -131,9 +140,10 @@ const nlohmann::json& MiniSchema::resolved(const Json& schema, const Json& value
   if (schema.contains("$ref"))
     return resolved(root_.at(Json::json_pointer(schema.at("$ref").get<std::string>().substr(1))),
                     value);
-  if (schema.contains("properties") || schema.contains("items") || !schema.contains("oneOf"))
+  const char* options = schema.contains("oneOf") ? "oneOf" : "anyOf";
+  if (schema.contains("properties") || schema.contains("items") || !schema.contains(options))
     return schema;
-  for (const Json& option : schema.at("oneOf"))
+  for (const Json& option : schema.at(options))
     if (check(option, value).empty()) return resolved(option, value);
   throw std::runtime_error("no option of the schema fits " + value.dump());
 }
@@ -153,7 +163,10 @@ std::set<std::string> MiniSchema::properties_at(const Json& document,
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
     const bool array = value->is_array();
     value = array ? &value->at(std::stoul(*step)) : &value->at(*step);
-    schema = &resolved(array ? schema->at("items") : schema->at("properties").at(*step), *value);
+    schema = &resolved(array                            ? schema->at("items")
+                       : schema->contains("properties") ? schema->at("properties").at(*step)
+                                                        : schema->at("additionalProperties"),
+                       *value);
   }
   std::set<std::string> names;
   for (const auto& [key, rule] : schema->at("properties").items()) names.insert(key);

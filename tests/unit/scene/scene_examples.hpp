@@ -13,7 +13,9 @@ inline const std::string& full_scene() {
   "time_step": 0.003, "duration": 1.5,
   "gravity": [0, -9.81, 0],
   "bodies": [
-    { "name": "bunny", "archive": "bunny.bem", "render_mesh": "bunny-uv.obj",
+    { "name": "bunny", "archive": "bunny.bem", "render_mesh": "bunny-uv.obj", "include": [],
+      "groups": {"ears": {"sphere": {"center": [0,1,0], "radius": 0.2}},
+                 "back": {"plane": {"point": [0,0,1], "normal": [0,0,2]}, "normal": [0,0,1]}},
       "position": [0, 0.3, 0], "rotation": {"axis": [0, 2, 0], "angle_deg": 30},
       "velocity": [1.5, 0, 0], "angular_velocity": [0, 0, 4],
       "frame": "moving", "correction": "least_squares", "centrifugal": false,
@@ -27,18 +29,25 @@ inline const std::string& full_scene() {
       "tractions": [ {"select": {"box": {"min": [0,0,0], "max": [1,1,1]}, "normal": [5,0,0], "normal_tolerance_deg": 60},
                       "traction": [900, 0, 0], "profile": [[0, 1], [0.1, 3]], "follow": true},
                      {"select": "all", "pressure": 1000},
-                     {"select": {"triangles": [7]}, "pressure": -1, "follow": true} ] },
-    { "name": "left", "archive": "/archives/rod.bem", "frame": "static", "gravity": false },
+                     {"select": {"triangles": [7]}, "pressure": -1, "follow": true},
+                     {"select": {"group": "ears"}, "pressure": 5} ] },
+    { "name": "left", "archive": "/archives/rod.bem", "frame": "static", "gravity": false,
+      "place": {"center": [0,5,0], "on": "bowl", "gap": 0.25, "direction": [0,-2,0]} },
     { "name": "right", "archive": "../rod.bem" },
+    { "name": "brick", "archive": "brick.bem",
+      "repeat": {"count": [2,1,2], "spacing": [1,2,3], "jitter": {"position": 0.01, "rotation_deg": 5, "seed": 3}} },
     { "name": "soft", "mesh": "toy.obj", "mesh_scale": 0.001, "precompute": {"scheme": "radau3", "codec_tol": 1e-3, "measure_growth": true},
       "material": {"name": "jelly", "density": 1000, "youngs_modulus": 3e4, "poisson_ratio": 0.5, "time_step": 0.01} },
     { "name": "firm", "mesh": "toy.obj", "material": {"name": "rubber", "density": 1100, "shear_modulus": 1e6, "poisson_ratio": 0.49} } ],
   "obstacles": [ {"name": "floor", "plane": {"point": [0,1,0], "normal": [0,3,0]}, "friction": 0.4},
-                 {"name": "bowl", "mesh": "bowl.obj", "scale": [1,2,3], "position": [0,0,9], "rotation": {"axis": [0,0,1], "angle_deg": 90}, "friction": 0.3, "motion": []} ],
+                 {"name": "bowl", "mesh": "bowl.obj", "scale": [1,2,3], "position": [0,0,9], "rotation": {"axis": [0,0,1], "angle_deg": 90}, "friction": 0.3, "motion": []},
+                 {"name": "post", "mesh": "post.obj", "repeat": {"count": 3, "spacing": [1,0,0]}} ],
   "joints": [ {"type": "point", "a": {"body": "left", "point": [0.1,0,0]}, "b": {"body": "right", "point": [0.2,0,0]}},
               {"type": "weld", "a": {"body": "left"}, "b": {"body": "right"}, "tolerance": 1e-3} ],
   "contact": {"enabled": true, "self": false, "tolerance": 1e-5, "friction_combine": "average", "solver": "nsgs"},
-  "output": {"formats": ["hdf5", "obj"], "every": 3, "fields": ["positions", "tractions"], "surface": "both"} })json";
+  "output": {"formats": ["hdf5", "obj"], "every": 3, "fields": ["positions", "tractions"], "surface": "both"},
+  "include": [],
+  "defaults": {"body": {"friction": 0.6}, "obstacle": {"friction": 0.7}} })json";
   return text;
 }
 

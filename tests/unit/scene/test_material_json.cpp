@@ -48,16 +48,16 @@ TEST_CASE("a wrong material is refused at its place") {
   REQUIRE(material_error(material_text("-0.1", mu)) ==
           "m.json:2:19: /poisson_ratio: expected a number from 0 to 0.5, found the number -0.1");
   REQUIRE(material_error(material_text("0.3", "\"shear_modulus\": 0")) ==
-          "m.json:3:19: /shear_modulus: expected a number > 0, found the number 0");
+          "m.json:3:19: /shear_modulus: expected a pressure > 0, found the number 0");
   REQUIRE(material_error(material_text("0.3", "\"youngs_modulus\": -1")) ==
-          "m.json:3:20: /youngs_modulus: expected a number > 0, found the number -1");
+          "m.json:3:20: /youngs_modulus: expected a pressure > 0, found the number -1");
   REQUIRE(material_error(material_text("0.3", mu + ", \"youngs_modulus\": 1")) ==
           "m.json:3:22: /youngs_modulus: \"youngs_modulus\" is not allowed beside "
           "\"shear_modulus\"");
   REQUIRE(material_error(material_text("0.3", "\"time_step\": 1")) ==
           "m.json:1:1: one of the keys shear_modulus, youngs_modulus is required");
   REQUIRE(material_error(material_text("0.3", mu + ", \"time_step\": 0")) ==
-          "m.json:3:35: /time_step: expected a number > 0, found the number 0");
+          "m.json:3:35: /time_step: expected a time > 0, found the number 0");
   REQUIRE(material_error(material_text("0.3", mu + ", \"colour\": 0")) ==
           "m.json:3:22: /colour: unknown key (allowed: name, density, poisson_ratio, "
           "shear_modulus, youngs_modulus, time_step)");

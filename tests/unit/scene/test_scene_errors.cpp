@@ -56,14 +56,12 @@ TEST_CASE("the scenes that the errors are made from are valid") {
 TEST_CASE("an unknown key is answered with the nearest valid one") {
   REQUIRE(body_error("@\"gravty\": true") ==
           "/bodies/0/gravty: unknown key; did you mean \"gravity\"? (allowed: name, archive, mesh, "
-          "material, mesh_scale, precompute, render_mesh, position, rotation, velocity, angular_velocity, "
-          "frame, correction, gravity, "
-          "centrifugal, friction, "
-          "fixed, "
-          "handles, tractions)");
+          "material, mesh_scale, precompute, render_mesh, place, position, rotation, velocity, "
+          "angular_velocity, frame, correction, gravity, centrifugal, "
+          "friction, fixed, handles, tractions, groups, repeat, include)");
   REQUIRE(world_error("  @\"colour\": 1") ==
           "/colour: unknown key (allowed: version, time_step, duration, gravity, bodies, "
-          "obstacles, joints, contact, output)");
+          "obstacles, joints, contact, output, include, defaults)");
   REQUIRE_THAT(body_error("@\"weather\": true"),
                Catch::StartsWith("/bodies/0/weather: unknown key ("));
   REQUIRE(minimal("\"archive\"", "@\"archiv\"") ==
@@ -89,19 +87,20 @@ TEST_CASE("the numbers of a scene are in range") {
   REQUIRE(minimal("\"version\": 1", "\"version\": @2") ==
           "/version: expected the version number 1, found the number 2");
   REQUIRE(minimal("\"version\": 1", "\"version\": @\"1\"") ==
-          "/version: expected a number, found the string \"1\"");
-  REQUIRE(minimal("0.01", "@0") == "/time_step: expected a number > 0, found the number 0");
+          "/version: expected the version number 1, found the string \"1\"");
+  REQUIRE(minimal("0.01", "@0") == "/time_step: expected a time > 0, found the number 0");
   REQUIRE(minimal("0.01", "@1e400") ==
           "/time_step: expected a number within +-1.8e308, found a larger one");
   REQUIRE(minimal("\"duration\": 1", "\"duration\": @-1") ==
-          "/duration: expected a number >= 0, found the number -1");
+          "/duration: expected a time >= 0, found the number -1");
   REQUIRE(minimal("\"duration\": 1", "\"duration\": @1e300") ==
           "/duration: expected at most 2147483647 time steps, found a duration of "
           "more");
   REQUIRE(minimal("\"duration\": 1", "\"duration\": 0") == "");
   REQUIRE(world_error("\"gravity\": @[0, 1]") ==
           "/gravity: expected an array of three numbers, found an array of length 2");
-  REQUIRE(world_error("\"gravity\": [0, 1, @true]") == "/gravity/2: expected a number, found true");
+  REQUIRE(world_error("\"gravity\": [0, 1, @true]") ==
+          "/gravity/2: expected an acceleration, found true");
 }
 
 TEST_CASE("names are unique and fit for files") {
@@ -171,7 +170,8 @@ TEST_CASE("selections have one of their forms") {
   REQUIRE(fixed("@7") ==
           "/bodies/0/fixed/0: expected a selection (\"all\" or an object), found the number 7");
   REQUIRE(fixed("@{}") ==
-          "/bodies/0/fixed/0: one of the keys vertices, triangles, box is required");
+          "/bodies/0/fixed/0: one of the keys vertices, triangles, box, sphere, plane, group is "
+          "required");
   REQUIRE(fixed("{@\"vertexes\": [1]}") ==
           "/bodies/0/fixed/0/vertexes: unknown key; did you mean \"vertices\"?");
   REQUIRE(fixed("{\"vertices\": [1], @\"triangles\": [1]}") ==
@@ -196,13 +196,14 @@ TEST_CASE("selections have one of their forms") {
   REQUIRE(fixed("{\"box\": @{\"min\": [0,2,0]}}") ==
           "/bodies/0/fixed/0/box: the required key \"max\" is missing");
   REQUIRE(fixed("{\"vertices\": [1], @\"normal\": [0,0,1]}") ==
-          "/bodies/0/fixed/0/normal: \"normal\" is allowed only beside \"box\"");
+          "/bodies/0/fixed/0/normal: \"normal\" is allowed only beside \"box\", \"sphere\" or "
+          "\"plane\"");
   REQUIRE(fixed("{\"box\": " + box + ", @\"normal_tolerance_deg\": 5}") ==
           "/bodies/0/fixed/0/normal_tolerance_deg: \"normal_tolerance_deg\" is allowed only "
           "beside \"normal\"");
   REQUIRE(fixed("{\"box\": " + box + ", \"normal\": [0,0,1], \"normal_tolerance_deg\": @181}") ==
-          "/bodies/0/fixed/0/normal_tolerance_deg: expected a number from 0 to 180, found the "
-          "number 181");
+          "/bodies/0/fixed/0/normal_tolerance_deg: expected an angle from 0 to 180 degrees, found "
+          "the number 181");
 }
 
 TEST_CASE("handles and their keyframes are checked") {
@@ -213,7 +214,7 @@ TEST_CASE("handles and their keyframes are checked") {
   REQUIRE(body_error("\"handles\": [@{\"motion\": []}]") ==
           "/bodies/0/handles/0: the required key \"select\" is missing");
   REQUIRE(handle(select + "\"release_time\": @-1") ==
-          "/bodies/0/handles/0/release_time: expected a number >= 0, found the number -1");
+          "/bodies/0/handles/0/release_time: expected a time >= 0, found the number -1");
   REQUIRE(handle(select + "\"motion\": [@{}]") ==
           "/bodies/0/handles/0/motion/0: the required key \"time\" is missing");
   REQUIRE(handle(select + "\"motion\": [{\"time\": 1}, {\"time\": @1}]") ==
@@ -238,7 +239,7 @@ TEST_CASE("tractions and their profiles are checked") {
   REQUIRE(traction(", @\"presure\": 1") ==
           "/bodies/0/tractions/0/presure: unknown key; did you mean \"pressure\"?");
   REQUIRE(traction(", \"pressure\": @[1,0,0]") ==
-          "/bodies/0/tractions/0/pressure: expected a number, found an array of length 3");
+          "/bodies/0/tractions/0/pressure: expected a pressure, found an array of length 3");
   REQUIRE(traction(", \"traction\": @1") ==
           "/bodies/0/tractions/0/traction: expected an array of three numbers, found the "
           "number 1");
@@ -299,7 +300,7 @@ TEST_CASE("joints name two bodies of the scene") {
   REQUIRE(joint(weld + "\"b\": {\"body\": \"right\", @\"point\": [0,0,0]}}") ==
           "/joints/0/b/point: \"point\" is allowed only in joints of type \"point\"");
   REQUIRE(joint(weld + "\"b\": {\"body\": \"right\"}, \"tolerance\": @0}") ==
-          "/joints/0/tolerance: expected a number > 0, found the number 0");
+          "/joints/0/tolerance: expected a length > 0, found the number 0");
   REQUIRE(joint("{\"type\": @\"glue\"}") ==
           "/joints/0/type: expected one of the strings point, weld, found \"glue\"");
   REQUIRE(joint("{\"type\": \"point\", \"a\": @{\"body\": \"left\"}}") ==
@@ -310,7 +311,7 @@ TEST_CASE("joints name two bodies of the scene") {
 
 TEST_CASE("contact and output settings are checked") {
   REQUIRE(world_error("\"contact\": {\"tolerance\": @0}") ==
-          "/contact/tolerance: expected a number > 0, found the number 0");
+          "/contact/tolerance: expected a length > 0, found the number 0");
   REQUIRE(world_error("\"contact\": {\"enabled\": @\"yes\"}") ==
           "/contact/enabled: expected true or false, found the string \"yes\"");
   REQUIRE(world_error("\"contact\": {\"friction_combine\": @\"mean\"}") ==

@@ -16,9 +16,9 @@ TEST_CASE("a scene that uses every key is read completely: the world") {
   REQUIRE(s.duration == 1.5);
   REQUIRE(s.gravity == Vec3(0, -9.81, 0));
   REQUIRE(where(s.time_step_location) == "dir/s.json:2:16: /time_step");
-  REQUIRE(s.bodies.size() == 5);
+  REQUIRE(s.bodies.size() == 9);
 
-  REQUIRE(s.obstacles.size() == 2);
+  REQUIRE(s.obstacles.size() == 5);
   REQUIRE(s.obstacles[0].name == "floor");
   REQUIRE(s.obstacles[0].friction == 0.4);
   REQUIRE(std::get<PlaneObstacle>(s.obstacles[0].shape).point == Vec3(0, 1, 0));
@@ -30,7 +30,7 @@ TEST_CASE("a scene that uses every key is read completely: the world") {
   REQUIRE(bowl.rotation.axis == Vec3(0, 0, 1));
   REQUIRE(bowl.rotation.angle == Approx(kPi / 2));
   REQUIRE(bowl.motion.empty());
-  REQUIRE(where(s.obstacles[1].location) == "dir/s.json:26:18: /obstacles/1");
+  REQUIRE(where(s.obstacles[1].location) == "dir/s.json:32:18: /obstacles/1");
 
   REQUIRE(s.joints.size() == 2);
   REQUIRE(s.joints[0].type == JointType::point);
@@ -75,7 +75,7 @@ TEST_CASE("a scene that uses every key is read completely: a body") {
   REQUIRE(b.fixed[1].kind == Selection::Kind::box);
   REQUIRE(b.fixed[1].box_max == Vec3(0.01, 1, 1));
   REQUIRE_FALSE(b.fixed[1].normal.has_value());
-  REQUIRE(where(b.fixed[1].location) == "dir/s.json:11:45: /bodies/0/fixed/1");
+  REQUIRE(where(b.fixed[1].location) == "dir/s.json:13:45: /bodies/0/fixed/1");
 
   REQUIRE(b.handles.size() == 1);
   REQUIRE(b.handles[0].select.box_max == Vec3(1, 2, 3));
@@ -85,7 +85,7 @@ TEST_CASE("a scene that uses every key is read completely: a body") {
   REQUIRE(b.handles[0].motion[1].translate == Vec3(0, 1, 0));
   REQUIRE(b.handles[0].motion[1].about == Vec3(0, 0, 7));
 
-  REQUIRE(b.tractions.size() == 3);
+  REQUIRE(b.tractions.size() == 4);
   REQUIRE_FALSE(b.tractions[0].is_pressure());
   REQUIRE(std::get<Vec3>(b.tractions[0].load) == Vec3(900, 0, 0));
   REQUIRE(b.tractions[0].select.normal.value() == Vec3(1, 0, 0));
@@ -99,18 +99,29 @@ TEST_CASE("a scene that uses every key is read completely: a body") {
   REQUIRE(b.tractions[1].follow);
   REQUIRE(b.tractions[2].select.kind == Selection::Kind::triangles);
   REQUIRE(b.tractions[2].select.indices == std::vector<int>{7});
-  REQUIRE(where(b.tractions[2].location) == "dir/s.json:19:22: /bodies/0/tractions/2");
+  REQUIRE(where(b.tractions[2].location) == "dir/s.json:21:22: /bodies/0/tractions/2");
 
   REQUIRE(s.bodies[1].frame == FrameMotion::stationary);
   REQUIRE_FALSE(s.bodies[1].gravity);
   REQUIRE(s.bodies[1].archive.resolved == "/archives/rod.bem");
   REQUIRE(s.bodies[2].archive.resolved == "dir/../rod.bem");
+
+  REQUIRE(b.tractions[3].select.kind == Selection::Kind::sphere);
+  REQUIRE(b.tractions[3].select.radius == 0.2);
+  REQUIRE(s.bodies[2].friction == 0.6);
+  REQUIRE(s.obstacles[2].friction == 0.7);
+  REQUIRE(s.bodies[1].place->obstacle == 1);
+  REQUIRE(s.bodies[1].place->gap.value() == 0.25);
+  REQUIRE(s.bodies[1].place->direction.value() == Vec3(0, -1, 0));
+  REQUIRE(s.bodies[6].name == "brick-1-0-1");
+  REQUIRE((s.bodies[6].position - Vec3(1, 0, 3)).cwiseAbs().maxCoeff() <= 0.01);
+  REQUIRE(s.obstacles[4].name == "post-2");
 }
 
 TEST_CASE("a scene that uses every key is read completely: what archives are computed from") {
   const Scene s = parse_scene("dir/s.json", full_scene());
-  REQUIRE(s.bodies[3].archive.resolved.empty());
-  const BodySource& soft = s.bodies[3].source.value();
+  REQUIRE(s.bodies[7].archive.resolved.empty());
+  const BodySource& soft = s.bodies[7].source.value();
   REQUIRE(soft.mesh.resolved == "dir/toy.obj");
   REQUIRE(soft.mesh_scale == 0.001);
   REQUIRE(soft.material.name == "jelly");
@@ -118,7 +129,7 @@ TEST_CASE("a scene that uses every key is read completely: what archives are com
   REQUIRE(soft.settings.scheme == "radau3");
   REQUIRE(soft.settings.codec_tolerance.value() == 1e-3);
   REQUIRE(soft.settings.measure_growth);
-  const BodySource& firm = s.bodies[4].source.value();
+  const BodySource& firm = s.bodies[8].source.value();
   REQUIRE(firm.mesh_scale == 1);
   REQUIRE(firm.settings.canonical_text() == PrecomputeSettings().canonical_text());
 }

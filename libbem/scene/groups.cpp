@@ -1,0 +1,49 @@
+#include "scene/groups.hpp"
+
+#include "base/nearest_name.hpp"
+
+#include <set>
+#include <vector>
+
+namespace bem {
+
+void Groups::resolve(Selection& selection, const std::string& hint) const {
+  if (selection.kind != Selection::Kind::group) return;
+  const auto of_scene = of_scene_.find(selection.group);
+  if (of_scene != of_scene_.end()) {
+    selection = of_scene->second;
+    return;
+  }
+  const auto of_mesh = of_mesh_.find(selection.group);
+  if (of_mesh == of_mesh_.end()) throw unknown(selection, hint);
+  std::set<int> triangles;
+  for (const auto& [begin, end] : of_mesh->second)
+    for (std::size_t t = begin; t < end; ++t) triangles.insert(static_cast<int>(t));
+  selection.kind = Selection::Kind::triangles;
+  selection.indices.assign(triangles.begin(), triangles.end());
+}
+
+void Groups::resolve(BodySpec& body, const std::string& hint) const {
+  for (Selection& fixed : body.fixed) resolve(fixed, hint);
+  for (HandleSpec& handle : body.handles) resolve(handle.select, hint);
+  for (TractionSpec& traction : body.tractions) resolve(traction.select, hint);
+}
+
+Error Groups::unknown(const Selection& selection, const std::string& hint) const {
+  constexpr std::size_t kMostNames = 20;
+  std::set<std::string> names;
+  for (const auto& [name, group] : of_scene_) names.insert(name);
+  for (const auto& [name, ranges] : of_mesh_) names.insert(name);
+  std::string known;
+  std::size_t count = 0;
+  for (const std::string& name : names)
+    if (++count <= kMostNames) known += (known.empty() ? "" : ", ") + in_quotes(name);
+  const std::string nearest = nearest_name(selection.group, {names.begin(), names.end()});
+  return error_at(selection.location,
+                  "there is no group " + in_quotes(selection.group) +
+                      (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?") +
+                      " (groups here: " + (known.empty() ? "none" : known) +
+                      (count > kMostNames ? ", ..." : "") + hint + ")");
+}
+
+}  // namespace bem
