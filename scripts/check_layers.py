@@ -12,6 +12,7 @@ PLAN = {
     "files": "base",
     "algebra": "base",
     "mesh": "base files",
+    "repair": "base mesh",
     "friction": "base algebra",
     "output": "base files mesh",
     "scene": "base files mesh friction output",
