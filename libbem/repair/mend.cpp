@@ -7,6 +7,7 @@
 #include "mesh/solids.hpp"
 #include "repair/crossings.hpp"
 #include "repair/crowded_edges.hpp"
+#include "repair/deviation.hpp"
 #include "repair/groups.hpp"
 #include "repair/holes.hpp"
 #include "repair/orient_patches.hpp"
@@ -18,12 +19,13 @@
 namespace bem {
 namespace {
 
-constexpr double kSmallHole = 0.15;    ///< of the area of its part of the surface
-constexpr double kWidestSeam = 2e-3;   ///< of the size
-constexpr double kFin = 0.05;          ///< of the area
-constexpr double kSeparation = 0.02;   ///< of the way to the neighbours
-constexpr double kLooseVolume = 1e-3;  ///< of the volume
-constexpr int kCuts = 3;               ///< tries of cutting out crossings
+constexpr double kSmallHole = 0.15;     ///< of the area of its part of the surface
+constexpr double kWidestSeam = 2e-3;    ///< of the size
+constexpr double kFin = 0.05;           ///< of the area
+constexpr double kSeparation = 0.02;    ///< of the way to the neighbours
+constexpr double kLooseVolume = 1e-3;   ///< of the volume
+constexpr double kCutDeviation = 0.02;  ///< of the size: what goes with them is no farther away
+constexpr int kCuts = 3;                ///< tries of cutting out crossings
 
 /// "12 and 30", the first few of many.
 std::string numbers_text(const std::vector<std::size_t>& numbers) {
@@ -91,6 +93,8 @@ class Mender {
       tell("dropped " + count_text(n, "triangle") + " without area");
     if (const auto n = drop_repeated(out_.mesh))
       tell("dropped " + count_text(n, "triangle") + " that repeat others");
+    if (const auto n = drop_other_diagonals(out_.mesh))
+      tell("dropped " + count_text(n, "triangle") + " along the other diagonals of quadrangles");
   }
 
   /// False if the surface is still open.
@@ -145,39 +149,43 @@ class Mender {
     return true;
   }
 
+  bool still_open() {
+    out_.acceptance.refusal = "edges stay open";
+    return false;
+  }
+
   /// Parts of a closed surface that touch in vertices or edges get their own.
   bool resolve_touching() {
-    TriangleMesh& mesh = out_.mesh;
+    TriangleMesh mesh = out_.mesh;
     weld_within(mesh, 0);
-    const BadEdges bad = count_bad_edges(mesh);
-    if (bad.open > 0) return out_.acceptance.refusal = "edges stay open", false;
-    std::size_t turned = 0;
-    if (bad.crowded > 0) {
-      drop_repeated(mesh);
-      if (count_bad_edges(mesh).open > 0) return out_.acceptance.refusal = "edges stay open", false;
+    const std::size_t crowded = count_bad_edges(mesh).crowded;
+    if (crowded > 0) drop_repeated(mesh);
+    if (count_bad_edges(mesh).open > 0) return still_open();
+    if (crowded > 0) {
       const std::size_t before = mesh.triangles.size();
       mesh = outer_side(mesh);
-      tell("parted " + count_text(bad.crowded, "edge") + " of three or more triangles" +
-           (mesh.triangles.size() < before
-                ? ", without " + count_text(before - mesh.triangles.size(), "triangle") + " inside"
-                : ""));
+      const std::size_t inside = before - mesh.triangles.size();
+      tell("parted " + count_text(crowded, "edge") + " of three or more triangles" +
+           (inside > 0 ? ", without " + count_text(inside, "triangle") + " inside" : ""));
     } else {
-      turned = orient_patches(mesh).turned;
+      tell_turned(orient_patches(mesh).turned);
     }
-    tell_turned(turned);
     if (const auto n = separate_vertices(mesh, kSeparation))
       tell("moved " + count_text(n, "vertex") +
            " apart where parts of the surface only touched, each by 2 % of the way to its "
            "neighbours");
     out_.acceptance = check_acceptance(mesh);
-    return out_.acceptance.closed();
+    if (!out_.acceptance.closed()) return false;
+    out_.mesh = std::move(mesh);
+    return true;
   }
 
   void cut_out_crossings() {
     for (int rings = 0; rings < kCuts && out_.acceptance.crossings > 0; ++rings) {
       check_interruption();
-      std::optional<TriangleMesh> cut = cut_out(out_.acceptance.surface->nodes, rings);
-      if (!cut) continue;
+      const TriangleMesh& before = out_.acceptance.surface->nodes;
+      std::optional<TriangleMesh> cut = cut_out(before, rings);
+      if (!cut || distance_between(before, *cut) > kCutDeviation) continue;
       Acceptance better = check_acceptance(*cut);
       if (!better.closed() || better.crossings > 0 || better.solids > out_.acceptance.solids)
         continue;

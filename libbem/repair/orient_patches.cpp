@@ -4,7 +4,6 @@
 #include "mesh/weld.hpp"
 #include "repair/groups.hpp"
 
-#include <numeric>
 #include <utility>
 
 namespace bem {
@@ -109,23 +108,24 @@ OrientedPatches orient_patches(TriangleMesh& mesh) {
 }
 
 std::size_t separate_vertices(TriangleMesh& mesh, double part) {
-  std::vector<int> all(mesh.vertices.size());
-  std::iota(all.begin(), all.end(), 0);
-  const std::vector<int> first = first_at_position(mesh.vertices, all);
-  std::vector<char> shared(all.size(), 0);
-  for (int v : all)
-    if (first[v] != v) shared[v] = shared[first[v]] = 1;
-  std::vector<Vec3> sum(all.size(), Vec3::Zero());
-  std::vector<int> count(all.size(), 0);
+  std::vector<Vec3> sum(mesh.vertices.size(), Vec3::Zero());
+  std::vector<int> count(mesh.vertices.size(), 0);
   for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) {
       sum[t[k]] += mesh.vertices[t[(k + 1) % 3]] + mesh.vertices[t[(k + 2) % 3]];
       count[t[k]] += 2;
     }
+  std::vector<int> used;
+  for (std::size_t v = 0; v < count.size(); ++v)
+    if (count[v] > 0) used.push_back(static_cast<int>(v));
+  const std::vector<int> first = first_at_position(mesh.vertices, used);
+  std::vector<char> shared(count.size(), 0);
+  for (int v : used)
+    if (first[v] != v) shared[v] = shared[first[v]] = 1;
   std::size_t moved = 0;
   std::vector<Vec3> places = mesh.vertices;
-  for (int v : all)
-    if (shared[v] && count[v] > 0) {
+  for (int v : used)
+    if (shared[v]) {
       places[v] += part * (sum[v] / count[v] - mesh.vertices[v]);
       ++moved;
     }

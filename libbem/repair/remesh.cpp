@@ -15,6 +15,7 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 constexpr int kTries = 6;
 constexpr double kTolerance = 0.05;  ///< of the number of vertices
+constexpr double kRefused = 0.98;    ///< times the length of edges whose mesh was not accepted
 constexpr double kManyTimes = 8;  ///< a mesh with so many times the vertices is thinned out first
 
 double total_area(const TriangleMesh& mesh) {
@@ -53,7 +54,8 @@ class Remesher {
       if (count < 4) return best;
       if ((!best || error_of(mesh) < error_of(*best)) && accepts(mesh)) best = std::move(mesh);
       if (best && error_of(*best) <= kTolerance) break;
-      length *= std::sqrt(count / target_.nodes);
+      const double wrong = std::sqrt(count / target_.nodes);
+      length *= std::abs(wrong - 1) < kTolerance / 2 ? kRefused : wrong;
     }
     return best;
   }

@@ -5,6 +5,8 @@
 #include "mesh/describe.hpp"
 #include "mesh/solids.hpp"
 #include "mesh/validate.hpp"
+#include "repair/bars.hpp"
+#include "repair/deviation.hpp"
 #include "repair/mend.hpp"
 #include "repair/remesh.hpp"
 #include "repair/sheet.hpp"
@@ -17,9 +19,11 @@
 namespace bem {
 namespace {
 
-constexpr double kLargestAlpha = 1.0;  ///< of the size
-constexpr int kFewestWrapNodes = 500;  ///< of the remeshed wrap of a small mesh ...
-constexpr int kMostWrapNodes = 2000;   ///< ... and of a large one
+constexpr double kLargestAlpha = 1.0;     ///< of the size
+constexpr int kFewestWrapNodes = 500;     ///< of the remeshed wrap of a small mesh ...
+constexpr int kMostWrapNodes = 2000;      ///< ... and of a large one
+constexpr double kWideOffset = 0.006;     ///< of wraps whose thin parts need few vertices
+constexpr std::size_t kMostSolids = 200;  ///< that bars join
 constexpr double kNodeTolerance = 0.1;
 
 class Repair {
@@ -38,7 +42,7 @@ class Repair {
     } else {
       const Acceptance acceptance = check_acceptance(input_);
       if (options_.mode == RepairMode::automatic && !acceptance.accepted())
-        mend(acceptance);
+        mend();
       else if (options_.nodes)
         use_surface();
     }
@@ -68,7 +72,7 @@ class Repair {
     mesh_ = frame_.to_unit(surface.nodes);
   }
 
-  void mend(const Acceptance& before) {
+  void mend() {
     Mended mended = bem::mend(mesh_, options_, frame_.size);
     if (mended.acceptance.accepted()) {
       for (const std::string& step : mended.steps) tell(step);
@@ -77,10 +81,9 @@ class Repair {
       return;
     }
     if (mended.mesh.triangles.empty()) refuse("no triangle has an area");
-    const bool sheet = mended.sheet || is_sheet(mended);
-    if (sheet && thicken_sheet(mended.mesh)) return;
-    tell("the surface is not closed by gentler steps: " + reason(before, mended));
-    if (sheet) {
+    if (mended.sheet && thicken_sheet(mended)) return;
+    tell("gentler steps do not close the surface: " + reason(mended));
+    if (mended.sheet) {
       options_.offset = options_.thickness / 2;
       options_.alpha = std::max(options_.alpha, options_.thickness);
       tell_sheet();
@@ -88,10 +91,7 @@ class Repair {
     wrap();
   }
 
-  /// A closed surface around next to nothing.
-  static bool is_sheet(const Mended& mended) { return mended.mesh.triangles.size() < 4; }
-
-  static std::string reason(const Acceptance&, const Mended& mended) {
+  static std::string reason(const Mended& mended) {
     const Acceptance& after = mended.acceptance;
     if (!after.closed()) return after.refusal;
     if (after.crossings > 0)
@@ -106,66 +106,136 @@ class Repair {
          " % of its size; --thickness chooses another)");
   }
 
-  bool thicken_sheet(const TriangleMesh& sheet) {
-    TriangleMesh plate = thicken(sheet, options_.thickness);
-    const Acceptance acceptance = check_acceptance(plate);
+  bool thicken_sheet(const Mended& mended) {
+    const Acceptance acceptance = check_acceptance(thicken(mended.mesh, options_.thickness));
     if (!acceptance.accepted()) return false;
-    mesh_ = outward(acceptance);
+    for (const std::string& step : mended.steps) tell(step);
     tell_sheet();
+    mesh_ = outward(acceptance);
     return true;
   }
 
-  /// Wraps with growing alpha until one solid results.
+  /// Wraps with growing alpha until one solid results, at last with bars between several.
   void wrap() {
     TriangleMesh soup = mesh_;
     weld_within(soup, 0);
     drop_collapsed(soup);
     if (soup.triangles.empty()) refuse("no triangle has an area");
-    for (double alpha = options_.alpha; alpha <= kLargestAlpha; alpha *= std::sqrt(2.0)) {
-      check_interruption();
-      const std::optional<TriangleMesh> wrapped = alpha_wrap(soup, alpha, options_.offset);
-      if (!wrapped || wrapped->triangles.empty()) continue;
-      const Acceptance acceptance = check_acceptance(*wrapped);
-      if (!acceptance.closed() || acceptance.solids != 1) continue;
-      return take_wrap(outward(acceptance), alpha, soup.vertices.size());
+    const std::optional<Acceptance> first = wrapped(soup, options_.alpha);
+    if (first && first->solids == 1) return take_wrap(*first, options_.alpha, soup);
+    if (first && join_and_wrap(*first, soup)) return;
+    for (double alpha = 2 * options_.alpha; alpha <= kLargestAlpha; alpha *= 2) {
+      const std::optional<Acceptance> next = wrapped(soup, alpha);
+      if (next && next->solids == 1) return take_wrap(*next, alpha, soup);
     }
     refuse("no wrap around it is one solid; split it with \"bemshape split " + name_ +
            " -o 'part-%d.obj'\"");
   }
 
-  void take_wrap(TriangleMesh wrapped, double alpha, std::size_t input_vertices) {
-    out_.report.wrapped = true;
-    tell("wrapped it at a distance of " + metres(options_.offset) + ", bridging gaps up to " +
-         metres(alpha) + ", with " + count_text(wrapped.vertices.size(), "vertex"));
-    mesh_ = std::move(wrapped);
-    if (options_.nodes) return;
-    const int wanted =
-        std::clamp(static_cast<int>(input_vertices), kFewestWrapNodes, kMostWrapNodes);
-    for (int nodes = wanted; nodes < static_cast<int>(mesh_.vertices.size()); nodes *= 2)
-      if (try_nodes(nodes)) return;
+  /// The checks of a wrap, if there is a closed one.
+  std::optional<Acceptance> wrapped(const TriangleMesh& soup, double alpha) const {
+    check_interruption();
+    const std::optional<TriangleMesh> mesh = alpha_wrap(soup, alpha, options_.offset);
+    if (!mesh || mesh->triangles.empty()) return std::nullopt;
+    Acceptance acceptance = check_acceptance(*mesh);
+    if (!acceptance.closed()) return std::nullopt;
+    return acceptance;
   }
 
-  bool try_nodes(int nodes) {
-    std::optional<TriangleMesh> result =
-        remesh(mesh_, {nodes, options_.feature_angle_deg},
-               [](const TriangleMesh& mesh) { return check_acceptance(mesh).accepted(); });
+  bool join_and_wrap(const Acceptance& several, TriangleMesh soup) {
+    if (several.solids > kMostSolids) return false;
+    const double width = std::max(options_.alpha, 2 * options_.offset);
+    const Bars bars = joining_bars(*several.surface, width);
+    append(soup, bars.mesh);
+    const std::optional<Acceptance> joined = wrapped(soup, options_.alpha);
+    if (!joined || joined->solids != 1) return false;
+    tell("joined " + std::to_string(several.solids) + " separate solids with bars of a width of " +
+         metres(width) + " across gaps of up to " + metres(bars.longest));
+    take_wrap(*joined, options_.alpha, soup);
+    return true;
+  }
+
+  static void append(TriangleMesh& mesh, const TriangleMesh& other) {
+    const int first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const auto& [a, b, c] : other.triangles)
+      mesh.triangles.push_back({first + a, first + b, first + c});
+  }
+
+  void tell_wrap(double alpha) {
+    tell("wrapped it at a distance of " + metres(options_.offset) + ", bridging gaps up to " +
+         metres(alpha));
+  }
+
+  void take_wrap(const Acceptance& acceptance, double alpha, const TriangleMesh& soup) {
+    out_.report.wrapped = true;
+    mesh_ = outward(acceptance);
+    tell_wrap(alpha);
+    if (options_.nodes) return;
+    const int wanted =
+        std::clamp(static_cast<int>(soup.vertices.size()), kFewestWrapNodes, kMostWrapNodes);
+    for (int nodes = wanted; nodes < static_cast<int>(mesh_.vertices.size()); nodes *= 2)
+      if (try_nodes(nodes, options_.alpha)) return;
+  }
+
+  /// Whether a mesh of so many vertices, within 10 %, is found that the checks accept and that is
+  /// nowhere farther from the surface than `far`.
+  bool try_nodes(int nodes, double far = 1) {
+    const std::optional<TriangleMesh> result =
+        remesh(mesh_, {nodes, options_.feature_angle_deg}, [&](const TriangleMesh& mesh) {
+          return check_acceptance(mesh).accepted() && deviation(mesh_, mesh) <= far;
+        });
     if (!result) return false;
     const double count = static_cast<double>(result->vertices.size());
     if (std::abs(count / nodes - 1) > kNodeTolerance) return false;
-    mesh_ = std::move(*result);
-    tell("remeshed it to " + count_text(mesh_.vertices.size(), "vertex"));
+    const double moved = distance_between(mesh_, *result);
+    mesh_ = *result;
+    tell("remeshed it to " + count_text(mesh_.vertices.size(), "vertex") + ", at most " +
+         metres(moved) + " away");
     return true;
   }
 
   void remesh_to_nodes() {
-    if (try_nodes(*options_.nodes)) return;
-    if (!out_.report.wrapped && options_.mode != RepairMode::off) {
-      tell("the surface has no good mesh of " + std::to_string(*options_.nodes) + " vertices");
-      wrap();
-      if (try_nodes(*options_.nodes)) return;
+    const int nodes = *options_.nodes;
+    if (try_angles(nodes)) return;
+    const TriangleMesh surface = mesh_;
+    tell("the surface has no mesh of " + std::to_string(nodes) +
+         " vertices that does not cross itself");
+    const RepairOptions asked = options_;
+    for (const double offset : {asked.offset, kWideOffset, 2 * kWideOffset}) {
+      if (offset <= asked.offset && out_.report.wrapped) continue;
+      if (wrap_wider(surface, offset) && try_angles(nodes)) return;
+      out_.report.steps.pop_back();
     }
-    refuse("it has no mesh of " + std::to_string(*options_.nodes) +
+    mesh_ = surface;
+    for (double more = 1.5; more < 8; more *= 1.5)
+      if (try_angles(static_cast<int>(more * nodes))) return;
+    refuse("it has no mesh of about " + std::to_string(nodes) +
            " vertices that is closed and does not cross itself; ask for more");
+  }
+
+  /// Edges are kept first where they are sharp, then where they are sharper.
+  bool try_angles(int nodes) {
+    const double asked = options_.feature_angle_deg;
+    bool found = false;
+    for (const double angle : {asked, std::max(asked, 80.0), 180.0}) {
+      options_.feature_angle_deg = angle;
+      found = found || try_nodes(nodes);
+    }
+    options_.feature_angle_deg = asked;
+    return found;
+  }
+
+  /// A wrap at a larger distance, whose thin parts are thicker; with a step in the report.
+  bool wrap_wider(const TriangleMesh& surface, double offset) {
+    options_.offset = offset;
+    options_.alpha = std::max(options_.alpha, 2 * offset);
+    const std::optional<Acceptance> acceptance = wrapped(surface, options_.alpha);
+    tell_wrap(options_.alpha);
+    if (!acceptance || acceptance->solids != 1) return false;
+    mesh_ = outward(*acceptance);
+    out_.report.wrapped = true;
+    return true;
   }
 
   void check_result() const {

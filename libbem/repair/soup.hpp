@@ -26,6 +26,10 @@ std::size_t drop_collapsed(TriangleMesh& mesh);
 /// triangles. O(n log n).
 std::size_t drop_repeated(TriangleMesh& mesh);
 
+/// Drops two of any four triangles that cover the same flat quadrangle, two along each of its
+/// diagonals. Returns the number of triangles. O(n log n).
+std::size_t drop_other_diagonals(TriangleMesh& mesh);
+
 /// Where a vertex lies on an edge of a triangle without area, or on an open edge, up to
 /// `distance` [m], the triangles of that edge are split there. Returns the number of edges. At most
 /// ten passes of O(n log n).
