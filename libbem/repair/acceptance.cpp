@@ -5,14 +5,19 @@
 #include "mesh/solids.hpp"
 
 namespace bem {
+namespace {
+
+const std::string kName = "mesh";  // which messages about it begin with
+
+}  // namespace
 
 Acceptance check_acceptance(const TriangleMesh& mesh) {
   Acceptance result;
   try {
-    result.surface = make_surface(mesh, "mesh");
+    result.surface = make_surface(mesh, kName);
   } catch (const Error& e) {
     if (e.code() != ErrorCode::invalid_input) throw;
-    result.refusal = e.what();
+    result.refusal = std::string(e.what()).substr(kName.size() + 2);
     return result;
   }
   result.solids = find_solids(*result.surface).size();

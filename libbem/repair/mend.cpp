@@ -23,6 +23,7 @@ constexpr double kSmallHole = 0.15;     ///< of the area of its part of the surf
 constexpr double kWidestSeam = 2e-3;    ///< of the size
 constexpr double kFin = 0.05;           ///< of the area
 constexpr double kSeparation = 0.02;    ///< of the way to the neighbours
+constexpr double kLooseArea = 1e-3;     ///< of the area
 constexpr double kLooseVolume = 1e-3;   ///< of the volume
 constexpr double kCutDeviation = 0.02;  ///< of the size: what goes with them is no farther away
 constexpr int kCuts = 3;                ///< tries of cutting out crossings
@@ -68,9 +69,7 @@ class Mender {
   /// What needs no order among the triangles.
   void clean_up() {
     TriangleMesh& mesh = out_.mesh;
-    if (const auto n = weld_within(mesh, options_.weld_tolerance))
-      tell("joined " + count_text(n, "vertex") + " with others within " +
-           metres(options_.weld_tolerance));
+    join_vertices();
     drop_bad_triangles();
     const OpenEdges open = find_open_edges(mesh);
     if (open.matched > 0 && open.tolerance <= kWidestSeam) {
@@ -86,6 +85,24 @@ class Mender {
     if (bad.open > 0 && bad.crowded > 0)
       if (const auto n = drop_fins(mesh, kFin))
         tell("dropped " + count_text(n, "triangle") + " of fins that stick out of the surface");
+    if (bad.open > 0)
+      if (const auto n = drop_loose_patches(mesh, kLooseArea))
+        tell("dropped " + count_text(n, "loose triangle"));
+  }
+
+  /// Up to the tolerance, or as far as it takes to close the surface where that is not far.
+  void join_vertices() {
+    double distance = options_.weld_tolerance;
+    for (double wider = distance; wider > 0 && wider <= kWidestSeam; wider *= 10) {
+      TriangleMesh joined = out_.mesh;
+      weld_within(joined, wider);
+      drop_collapsed(joined);
+      if (count_bad_edges(joined).open > 0 || joined.triangles.empty()) continue;
+      distance = wider;
+      break;
+    }
+    if (const auto n = weld_within(out_.mesh, distance))
+      tell("joined " + count_text(n, "vertex") + " with others within " + metres(distance));
   }
 
   void drop_bad_triangles() {

@@ -93,7 +93,7 @@ class Repair {
 
   static std::string reason(const Mended& mended) {
     const Acceptance& after = mended.acceptance;
-    if (!after.closed()) return after.refusal;
+    if (!after.closed()) return after.refusal.substr(0, after.refusal.find(" (counting"));
     if (after.crossings > 0)
       return count_text(after.crossings, "pair") + " of triangles cross each other";
     return std::to_string(after.solids) + " separate solids are left";

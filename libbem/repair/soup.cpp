@@ -187,6 +187,37 @@ int across_diagonal(const TriangleMesh& mesh, const std::array<int, 4>& corners,
   return -1;
 }
 
+/// Drops patches of at most `part` of the area that end somewhere, and hang on others or do not.
+std::size_t drop_open_patches(TriangleMesh& mesh, double part, bool hanging) {
+  const std::vector<HalfEdge> edges = sorted_half_edges(mesh.triangles);
+  Groups patches = patches_of(mesh.triangles, edges);
+  std::vector<char> ends(mesh.triangles.size(), 0), hangs(mesh.triangles.size(), 0);
+  for_each_edge(edges, [&](const HalfEdge* first, const HalfEdge* last) {
+    for (const HalfEdge* h = first; h != last; ++h) {
+      const int patch = patches.find(h->index / 3);
+      if (last - first == 1) ends[patch] = 1;
+      if (last - first > 2) hangs[patch] = 1;
+    }
+  });
+  std::vector<double> area(mesh.triangles.size(), 0);
+  double total = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const double a = triangle_area(mesh, mesh.triangles[t]);
+    area[patches.find(static_cast<int>(t))] += a;
+    total += a;
+  }
+  std::vector<Triangle> kept;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const int patch = patches.find(static_cast<int>(t));
+    const bool small = area[patch] <= part * total;
+    if (!(ends[patch] && (hangs[patch] != 0) == hanging && small))
+      kept.push_back(mesh.triangles[t]);
+  }
+  const std::size_t count = mesh.triangles.size() - kept.size();
+  mesh.triangles = std::move(kept);
+  return count;
+}
+
 }  // namespace
 
 std::size_t weld_within(TriangleMesh& mesh, double distance) {
@@ -268,32 +299,11 @@ std::size_t split_edges_at_vertices(TriangleMesh& mesh, double distance) {
 }
 
 std::size_t drop_fins(TriangleMesh& mesh, double part) {
-  const std::vector<HalfEdge> edges = sorted_half_edges(mesh.triangles);
-  Groups patches = patches_of(mesh.triangles, edges);
-  std::vector<char> ends(mesh.triangles.size(), 0), hangs(mesh.triangles.size(), 0);
-  for_each_edge(edges, [&](const HalfEdge* first, const HalfEdge* last) {
-    for (const HalfEdge* h = first; h != last; ++h) {
-      const int patch = patches.find(h->index / 3);
-      if (last - first == 1) ends[patch] = 1;
-      if (last - first > 2) hangs[patch] = 1;
-    }
-  });
-  std::vector<double> area(mesh.triangles.size(), 0);
-  double total = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const double a = triangle_area(mesh, mesh.triangles[t]);
-    area[patches.find(static_cast<int>(t))] += a;
-    total += a;
-  }
-  std::vector<Triangle> kept;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const int patch = patches.find(static_cast<int>(t));
-    if (!(ends[patch] && hangs[patch] && area[patch] <= part * total))
-      kept.push_back(mesh.triangles[t]);
-  }
-  const std::size_t count = mesh.triangles.size() - kept.size();
-  mesh.triangles = std::move(kept);
-  return count;
+  return drop_open_patches(mesh, part, true);
+}
+
+std::size_t drop_loose_patches(TriangleMesh& mesh, double part) {
+  return drop_open_patches(mesh, part, false);
 }
 
 BadEdges count_bad_edges(const TriangleMesh& mesh) {

@@ -40,6 +40,9 @@ std::size_t split_edges_at_vertices(TriangleMesh& mesh, double distance);
 /// area of the mesh. Returns the number of triangles. O(n log n).
 std::size_t drop_fins(TriangleMesh& mesh, double part);
 
+/// The same for patches that end in an open edge and hang on nothing.
+std::size_t drop_loose_patches(TriangleMesh& mesh, double part);
+
 /// Edges that do not have exactly two triangles. O(n log n).
 struct BadEdges {
   std::size_t open = 0;     ///< one triangle
