@@ -11,6 +11,7 @@
 #include "repair/groups.hpp"
 #include "repair/holes.hpp"
 #include "repair/orient_patches.hpp"
+#include "repair/repeated_triangles.hpp"
 #include "repair/soup.hpp"
 
 #include <cmath>

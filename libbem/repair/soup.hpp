@@ -20,16 +20,6 @@ std::size_t weld_rims_within(TriangleMesh& mesh, double distance);
 /// Drops triangles that have a vertex twice. O(n).
 std::size_t drop_collapsed(TriangleMesh& mesh);
 
-/// Drops triangles whose vertices another triangle has as well. Of those that look the same way one
-/// stays. Two that look opposite ways are a wall between two solids, of which none stays, or the
-/// sides of a sheet, of which one stays: whichever leaves fewer edges without exactly two
-/// triangles. O(n log n).
-std::size_t drop_repeated(TriangleMesh& mesh);
-
-/// Drops two of any four triangles that cover the same flat quadrangle, two along each of its
-/// diagonals. Returns the number of triangles. O(n log n).
-std::size_t drop_other_diagonals(TriangleMesh& mesh);
-
 /// Where a vertex lies on an edge of a triangle without area, or on an open edge, up to
 /// `distance` [m], the triangles of that edge are split there. Returns the number of edges. At most
 /// ten passes of O(n log n).

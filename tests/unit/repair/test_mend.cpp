@@ -42,7 +42,7 @@ TEST_CASE("cubes that share a face become one solid") {
   CHECK(volume_of(mend(along_face, {}, 1)) == Approx(2));
 }
 
-TEST_CASE("walls with both diagonals go") {
+TEST_CASE("repeated triangles and triangles without area go") {
   TriangleMesh mesh = cube();
   mesh.triangles.push_back({0, 0, 0});
   const Triangle t = mesh.triangles[0];
