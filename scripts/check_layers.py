@@ -13,6 +13,7 @@ PLAN = {
     "algebra": "base",
     "mesh": "base files",
     "render": "base files mesh",
+    "repair": "base mesh",
     "friction": "base algebra",
     "output": "base files mesh render",
     "kernels": "base algebra",

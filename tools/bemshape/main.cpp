@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "common/cli.hpp"
+#include "mend.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/shapes.hpp"
 #include "split.hpp"
@@ -55,6 +56,7 @@ class CommandLine {
     add_round_shapes();
     add_box_shapes();
     add_split();
+    bem::add_mend_commands(app_, mend_, action_, log_);
   }
 
   int run(int argc, char** argv) {
@@ -92,7 +94,7 @@ class CommandLine {
 
   void add_split() {
     CLI::App& split =
-        *app_.add_subcommand("split", "writes the separate solids of a mesh as files of their own");
+        *app_.add_subcommand("split", "writes the separate parts of a mesh as files of their own");
     split.add_option("mesh", split_.input, "mesh file to read")->required();
     split
         .add_option("-o,--output", split_.pattern,
@@ -180,6 +182,7 @@ class CommandLine {
   CLI::App app_;
   Options options_;
   bem::SplitOptions split_;
+  bem::MendOptions mend_;
   std::function<void()> action_;
 };
 

@@ -1,0 +1,102 @@
+#include "repair/remesh.hpp"
+
+#include "base/interruption.hpp"
+#include "repair/cgal_mesh.hpp"
+
+#include <cmath>
+
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+
+namespace bem {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+constexpr int kTries = 6;
+constexpr double kTolerance = 0.05;  ///< of the number of vertices
+constexpr double kRefused = 0.98;    ///< times the length of edges whose mesh was not accepted
+constexpr double kManyTimes = 8;  ///< a mesh with so many times the vertices is thinned out first
+
+double total_area(const TriangleMesh& mesh) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) area += triangle_area(mesh, t);
+  return area;
+}
+
+/// Of the equilateral triangles with which so many nodes cover the area.
+double edge_length(double area, double nodes) {
+  return std::sqrt(2 * area / (std::sqrt(3.0) * nodes));
+}
+
+class Remesher {
+ public:
+  Remesher(const TriangleMesh& mesh, const RemeshTarget& target)
+      : target_(target), area_(total_area(mesh)) {
+    std::optional<CgalMesh> cgal = cgal_mesh(mesh);
+    if (!cgal) return;
+    start_ = std::move(*cgal);
+    valid_ = true;
+    mark_features(start_);
+    if (mesh.vertices.size() > kManyTimes * target.nodes)
+      start_ = remeshed(edge_length(area_, 4.0 * target.nodes));
+  }
+
+  std::optional<TriangleMesh> run(const std::function<bool(const TriangleMesh&)>& accepts) {
+    if (!valid_) return std::nullopt;
+    std::optional<TriangleMesh> best;
+    double length = edge_length(area_, target_.nodes);
+    for (int i = 0; i < kTries; ++i) {
+      check_interruption();
+      CgalMesh result = remeshed(length);
+      TriangleMesh mesh = from_cgal(result);
+      const double count = static_cast<double>(mesh.vertices.size());
+      if (count < 4) return best;
+      if ((!best || error_of(mesh) < error_of(*best)) && accepts(mesh)) best = std::move(mesh);
+      if (best && error_of(*best) <= kTolerance) break;
+      const double wrong = std::sqrt(count / target_.nodes);
+      length *= std::abs(wrong - 1) < kTolerance / 2 ? kRefused : wrong;
+    }
+    return best;
+  }
+
+ private:
+  using Sharp = CgalMesh::Property_map<CgalMesh::Edge_index, bool>;
+
+  static Sharp sharp_edges(CgalMesh& mesh) {
+    return mesh.add_property_map<CgalMesh::Edge_index, bool>("e:sharp", false).first;
+  }
+
+  void mark_features(CgalMesh& mesh) const {
+    pmp::detect_sharp_edges(mesh, target_.feature_angle, sharp_edges(mesh));
+  }
+
+  double error_of(const TriangleMesh& mesh) const {
+    return std::abs(static_cast<double>(mesh.vertices.size()) / target_.nodes - 1);
+  }
+
+  CgalMesh remeshed(double length) const {
+    CgalMesh mesh = start_;
+    pmp::isotropic_remeshing(mesh.faces(), length, mesh,
+                             pmp::parameters::edge_is_constrained_map(sharp_edges(mesh))
+                                 .number_of_iterations(3)
+                                 .number_of_relaxation_steps(2)
+                                 .relax_constraints(true));
+    mesh.collect_garbage();
+    return mesh;
+  }
+
+  RemeshTarget target_;
+  double area_;
+  CgalMesh start_;
+  bool valid_ = false;
+};
+
+}  // namespace
+
+std::optional<TriangleMesh> remesh(const TriangleMesh& mesh, const RemeshTarget& target,
+                                   const std::function<bool(const TriangleMesh&)>& accepts) {
+  return without_failure([&] { return Remesher(mesh, target).run(accepts); });
+}
+
+}  // namespace bem

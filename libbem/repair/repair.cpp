@@ -1,0 +1,285 @@
+#include "repair/repair.hpp"
+
+#include "base/error.hpp"
+#include "base/interruption.hpp"
+#include "mesh/describe.hpp"
+#include "mesh/solids.hpp"
+#include "mesh/validate.hpp"
+#include "repair/bars.hpp"
+#include "repair/deviation.hpp"
+#include "repair/mend.hpp"
+#include "repair/remesh.hpp"
+#include "repair/sheet.hpp"
+#include "repair/soup.hpp"
+#include "repair/unit_frame.hpp"
+#include "repair/wrap.hpp"
+
+#include <cmath>
+
+namespace bem {
+namespace {
+
+constexpr double kLargestAlpha = 1.0;     ///< of the size
+constexpr int kFewestWrapNodes = 500;     ///< of the remeshed wrap of a small mesh ...
+constexpr int kMostWrapNodes = 2000;      ///< ... and of a large one
+constexpr double kWideOffset = 0.006;     ///< of wraps whose thin parts need few vertices
+constexpr std::size_t kMostSolids = 200;  ///< that bars join
+constexpr double kNodeTolerance = 0.1;
+
+class Repair {
+ public:
+  Repair(const TriangleMesh& mesh, const RepairOptions& options, const std::string& name)
+      : input_(mesh), options_(options), name_(name) {
+    check_repair_options(options);
+    check_elements(mesh, name);
+    frame_ = unit_frame(mesh);
+    mesh_ = frame_.to_unit(mesh);
+  }
+
+  RepairedMesh run() {
+    if (options_.mode == RepairMode::wrap) {
+      wrap();
+    } else {
+      const Acceptance acceptance = check_acceptance(input_);
+      if (options_.mode == RepairMode::automatic && !acceptance.accepted())
+        mend();
+      else if (options_.nodes)
+        use_surface();
+    }
+    if (options_.nodes) remesh_to_nodes();
+    if (!out_.report.changed) return {input_, out_.report};
+    out_.mesh = frame_.from_unit(std::move(mesh_));
+    check_result();
+    return std::move(out_);
+  }
+
+ private:
+  void tell(const std::string& step) {
+    out_.report.steps.push_back(step);
+    out_.report.changed = true;
+  }
+
+  std::string metres(double length) const { return rounded_text(frame_.size * length, 3) + " m"; }
+
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw Error(ErrorCode::invalid_input, name_ + ": the mesh cannot be repaired: " + why);
+  }
+
+  /// The surface of a mesh that is to be remeshed as it is.
+  void use_surface() {
+    const Surface surface = make_surface(input_, name_);
+    check_single_solid(surface, name_);
+    mesh_ = frame_.to_unit(surface.nodes);
+  }
+
+  void mend() {
+    Mended mended = bem::mend(mesh_, options_, frame_.size);
+    if (mended.acceptance.accepted()) {
+      for (const std::string& step : mended.steps) tell(step);
+      mesh_ = outward(mended.acceptance);
+      out_.report.changed = true;
+      return;
+    }
+    if (mended.mesh.triangles.empty()) refuse("no triangle has an area");
+    if (mended.sheet && thicken_sheet(mended)) return;
+    tell("gentler steps do not close the surface: " + reason(mended));
+    if (mended.sheet) {
+      options_.offset = options_.thickness / 2;
+      options_.alpha = std::max(options_.alpha, options_.thickness);
+      tell_sheet();
+    }
+    wrap();
+  }
+
+  static std::string reason(const Mended& mended) {
+    const Acceptance& after = mended.acceptance;
+    if (!after.closed()) return after.refusal.substr(0, after.refusal.find(" (counting"));
+    if (after.crossings > 0)
+      return count_text(after.crossings, "pair") + " of triangles cross each other";
+    return std::to_string(after.solids) + " separate solids are left";
+  }
+
+  void tell_sheet() {
+    out_.report.sheet = true;
+    tell("the mesh is a sheet without an inside: it was given a thickness of " +
+         metres(options_.thickness) + " (" + rounded_text(100 * options_.thickness, 3) +
+         " % of its size; --thickness chooses another)");
+  }
+
+  bool thicken_sheet(const Mended& mended) {
+    const Acceptance acceptance = check_acceptance(thicken(mended.mesh, options_.thickness));
+    if (!acceptance.accepted()) return false;
+    for (const std::string& step : mended.steps) tell(step);
+    tell_sheet();
+    mesh_ = outward(acceptance);
+    return true;
+  }
+
+  /// Wraps with growing alpha until one solid results, at last with bars between several.
+  void wrap() {
+    TriangleMesh soup = mesh_;
+    weld_within(soup, 0);
+    drop_collapsed(soup);
+    if (soup.triangles.empty()) refuse("no triangle has an area");
+    const std::optional<Acceptance> first = wrapped(soup, options_.alpha);
+    if (first && first->solids == 1) return take_wrap(*first, options_.alpha, soup);
+    if (first && join_and_wrap(*first, soup)) return;
+    for (double alpha = 2 * options_.alpha; alpha <= kLargestAlpha; alpha *= 2) {
+      const std::optional<Acceptance> next = wrapped(soup, alpha);
+      if (next && next->solids == 1) return take_wrap(*next, alpha, soup);
+    }
+    refuse("no wrap around it is one solid; split it with \"bemshape split " + name_ +
+           " -o 'part-%d.obj'\"");
+  }
+
+  /// The checks of a wrap, if there is a closed one.
+  std::optional<Acceptance> wrapped(const TriangleMesh& soup, double alpha) const {
+    check_interruption();
+    const std::optional<TriangleMesh> mesh = alpha_wrap(soup, alpha, options_.offset);
+    if (!mesh || mesh->triangles.empty()) return std::nullopt;
+    Acceptance acceptance = check_acceptance(*mesh);
+    if (!acceptance.closed()) return std::nullopt;
+    return acceptance;
+  }
+
+  bool join_and_wrap(const Acceptance& several, TriangleMesh soup) {
+    if (several.solids > kMostSolids) return false;
+    const double width = std::max(options_.alpha, 2 * options_.offset);
+    const Bars bars = joining_bars(*several.surface, width);
+    append(soup, bars.mesh);
+    const std::optional<Acceptance> joined = wrapped(soup, options_.alpha);
+    if (!joined || joined->solids != 1) return false;
+    tell("joined " + std::to_string(several.solids) + " separate solids with bars of a width of " +
+         metres(width) + " across gaps of up to " + metres(bars.longest));
+    take_wrap(*joined, options_.alpha, soup);
+    return true;
+  }
+
+  static void append(TriangleMesh& mesh, const TriangleMesh& other) {
+    const int first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const auto& [a, b, c] : other.triangles)
+      mesh.triangles.push_back({first + a, first + b, first + c});
+  }
+
+  void tell_wrap(double alpha) {
+    tell("wrapped it at a distance of " + metres(options_.offset) + ", bridging gaps up to " +
+         metres(alpha));
+  }
+
+  void take_wrap(const Acceptance& acceptance, double alpha, const TriangleMesh& soup) {
+    out_.report.wrapped = true;
+    mesh_ = outward(acceptance);
+    tell_wrap(alpha);
+    if (options_.nodes) return;
+    const int wanted =
+        std::clamp(static_cast<int>(soup.vertices.size()), kFewestWrapNodes, kMostWrapNodes);
+    for (int nodes = wanted; nodes < static_cast<int>(mesh_.vertices.size()); nodes *= 2)
+      if (try_nodes(nodes, options_.alpha)) return;
+  }
+
+  /// Whether a mesh of so many vertices, within 10 %, is found that the checks accept and that is
+  /// nowhere farther from the surface than `far`.
+  bool try_nodes(int nodes, double far = 1) {
+    const std::optional<TriangleMesh> result =
+        remesh(mesh_, {nodes, options_.feature_angle_deg}, [&](const TriangleMesh& mesh) {
+          return check_acceptance(mesh).accepted() && deviation(mesh_, mesh) <= far;
+        });
+    if (!result) return false;
+    const double count = static_cast<double>(result->vertices.size());
+    if (std::abs(count / nodes - 1) > kNodeTolerance) return false;
+    const double moved = distance_between(mesh_, *result);
+    mesh_ = *result;
+    tell("remeshed it to " + count_text(mesh_.vertices.size(), "vertex") + ", at most " +
+         metres(moved) + " away");
+    return true;
+  }
+
+  void remesh_to_nodes() {
+    const int nodes = *options_.nodes;
+    if (try_angles(nodes)) return;
+    const TriangleMesh surface = mesh_;
+    tell("the surface has no mesh of " + std::to_string(nodes) +
+         " vertices that does not cross itself");
+    const RepairOptions asked = options_;
+    for (const double offset : {asked.offset, kWideOffset, 2 * kWideOffset}) {
+      if (offset <= asked.offset && out_.report.wrapped) continue;
+      if (wrap_wider(surface, offset) && try_angles(nodes)) return;
+      out_.report.steps.pop_back();
+    }
+    mesh_ = surface;
+    for (double more = 1.5; more < 8; more *= 1.5)
+      if (try_angles(static_cast<int>(more * nodes))) return;
+    refuse("it has no mesh of about " + std::to_string(nodes) +
+           " vertices that is closed and does not cross itself; ask for more");
+  }
+
+  /// Edges are kept first where they are sharp, then where they are sharper.
+  bool try_angles(int nodes) {
+    const double asked = options_.feature_angle_deg;
+    bool found = false;
+    for (const double angle : {asked, std::max(asked, 80.0), 180.0}) {
+      options_.feature_angle_deg = angle;
+      found = found || try_nodes(nodes);
+    }
+    options_.feature_angle_deg = asked;
+    return found;
+  }
+
+  /// A wrap at a larger distance, whose thin parts are thicker; with a step in the report.
+  bool wrap_wider(const TriangleMesh& surface, double offset) {
+    options_.offset = offset;
+    options_.alpha = std::max(options_.alpha, 2 * offset);
+    const std::optional<Acceptance> acceptance = wrapped(surface, options_.alpha);
+    tell_wrap(options_.alpha);
+    if (!acceptance || acceptance->solids != 1) return false;
+    mesh_ = outward(*acceptance);
+    out_.report.wrapped = true;
+    return true;
+  }
+
+  void check_result() const {
+    const Acceptance acceptance = check_acceptance(out_.mesh);
+    if (acceptance.accepted()) return;
+    refuse(acceptance.closed() ? "the result is not one solid" : acceptance.refusal);
+  }
+
+  const TriangleMesh& input_;
+  RepairOptions options_;
+  std::string name_;
+  UnitFrame frame_;
+  TriangleMesh mesh_;
+  RepairedMesh out_;
+};
+
+}  // namespace
+
+RepairedMesh repair_mesh(const TriangleMesh& mesh, const RepairOptions& options,
+                         const std::string& name) {
+  return Repair(mesh, options, name).run();
+}
+
+RepairedMesh wrap_mesh(const TriangleMesh& mesh, const RepairOptions& options,
+                       const std::string& name) {
+  RepairOptions wrap = options;
+  wrap.mode = RepairMode::wrap;
+  return repair_mesh(mesh, wrap, name);
+}
+
+std::string repair_advice(const std::string& name) {
+  return "; mend it with \"bemshape repair " + name + " -o repaired.obj\"";
+}
+
+void check_repair_options(const RepairOptions& o) {
+  const auto check = [](bool fine, const std::string& what, const std::string& range) {
+    if (!fine) throw Error(ErrorCode::usage, what + " must be in " + range);
+  };
+  check(o.weld_tolerance >= 0 && o.weld_tolerance <= 0.1, "the tolerance of welding", "[0, 0.1]");
+  check(o.thickness > 0 && o.thickness <= 0.5, "the thickness of sheets", "(0, 0.5]");
+  check(o.alpha > 0 && o.alpha <= 1, "alpha", "(0, 1]");
+  check(o.offset > 0 && o.offset <= 0.5, "the offset", "(0, 0.5]");
+  check(!o.nodes || *o.nodes >= 12, "the number of nodes", "[12, ...)");
+  check(o.feature_angle_deg > 0 && o.feature_angle_deg <= 180, "the feature angle", "(0, 180]");
+}
+
+}  // namespace bem
