@@ -58,8 +58,9 @@ std::string difference_from_plan(const Archive& archive, const BodyPlan& plan,
   if (made.program != program) return other("origin", made.program, program);
   std::string text = difference_of_meshes(archive.geometry().input, plan.geometry.input);
   if (text.empty()) text = difference_from_material(archive, wanted.material);
-  if (text.empty() && made.options != plan.settings.canonical_text())
-    text = other("set of options", made.options, plan.settings.canonical_text());
+  const std::string options = plan.settings.canonical_text() + plan.repair;
+  if (text.empty() && made.options != options)
+    text = other("set of options", made.options, options);
   if (!text.empty() || archive.kind() == ModelKind::rigid) return text;
   text = other("time step", found.dt, wanted.dt);
   if (text.empty()) text = other("history", found.history_length, wanted.history_length);

@@ -7,6 +7,7 @@
 #include "mesh/solids.hpp"
 #include "model/defaults.hpp"
 #include "preparation/time_step.hpp"
+#include "repair/repair.hpp"
 #include "scene/groups.hpp"
 #include "scene/selection.hpp"
 #include "scene/selection_json.hpp"
@@ -32,7 +33,7 @@ class Planner {
     plan_.settings = inputs.settings;
   }
 
-  BodyPlan run(TriangleMesh mesh) {
+  BodyPlan run(SimulatedMesh mesh) {
     PrecomputeOptions& options = plan_.options;
     options.kind = settings().model;
     options.discretisation.material = inputs_.material;
@@ -58,7 +59,7 @@ class Planner {
     return style_ == SettingStyle::option ? "--dt" : "\"time_step\"";
   }
 
-  void make_body(TriangleMesh mesh);
+  void make_body(SimulatedMesh mesh);
   void settle_method(const Surface& surface);
   void choose_discretisation();
   void choose_storage();
@@ -74,9 +75,12 @@ class Planner {
   BodyPlan plan_;
 };
 
-void Planner::make_body(TriangleMesh mesh) {
-  const Surface surface = surface_of(std::move(mesh), inputs_);
-  plan_.warnings = surface.warnings;
+void Planner::make_body(SimulatedMesh mesh) {
+  const Surface surface = surface_of(std::move(mesh.mesh), inputs_);
+  plan_.warnings = std::move(mesh.warnings);
+  plan_.notes = std::move(mesh.notes);
+  plan_.warnings.insert(plan_.warnings.end(), surface.warnings.begin(), surface.warnings.end());
+  if (mesh.changed) plan_.repair = settings().repair_text(inputs_.repair);
   if (settings().model != ModelKind::rigid) settle_method(surface);
   plan_.geometry = make_geometry(surface, inputs_.material.density);
   plan_.geometry.corner_angle_deg = settings().corner_angle();
@@ -197,7 +201,32 @@ void Planner::check_history() {
 
 }  // namespace
 
-BodyPlan plan_body(TriangleMesh mesh, const BodyInputs& inputs, SettingStyle style) {
+SimulatedMesh simulated_mesh(const TriangleMesh& file, const BodyInputs& inputs,
+                             SettingStyle style) {
+  const RepairOptions options = inputs.settings.repair_options(inputs.repair);
+  SimulatedMesh out;
+  if (options.mode == RepairMode::off) {
+    try {
+      check_single_solid(make_surface(file, inputs.mesh), inputs.mesh);
+    } catch (const Error& e) {
+      throw Error(e.code(), std::string(e.what()) + "; " + setting_text(style, "repair", "auto") +
+                                " would mend it");
+    }
+    if (!options.nodes) {
+      out.mesh = file;
+      return out;
+    }
+  }
+  RepairedMesh repaired = repair_mesh(file, options, inputs.mesh);
+  out.mesh = std::move(repaired.mesh);
+  out.changed = repaired.report.changed;
+  const bool coarse = repaired.report.sheet || repaired.report.wrapped;
+  for (const std::string& step : repaired.report.steps)
+    (coarse ? out.warnings : out.notes).push_back(inputs.mesh + ": " + step);
+  return out;
+}
+
+BodyPlan plan_body(SimulatedMesh mesh, const BodyInputs& inputs, SettingStyle style) {
   return Planner(inputs, style).run(std::move(mesh));
 }
 
@@ -212,7 +241,7 @@ Provenance provenance_of(const BodyInputs& inputs, const BodyPlan& plan,
     return std::filesystem::path(path).filename().string();
   };
   return {program, file_name(inputs.mesh), file_name(inputs.material_name), inputs.mesh_scale,
-          plan.settings.canonical_text()};
+          plan.settings.canonical_text() + plan.repair};
 }
 
 }  // namespace bem

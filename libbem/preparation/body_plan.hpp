@@ -18,25 +18,39 @@ struct BodyInputs {
   Material material;
   std::string material_name;  ///< a path or a name, for messages
   PrecomputeSettings settings;
+  RepairMode repair = RepairMode::off;  ///< where the settings do not say
   /// The vertices that contacts, joints and fixed vertices may act on, in place of
   /// `settings.loads` "all"; empty: as that says.
   std::vector<Selection> loaded;
 };
 
+/// The mesh that is simulated: that of the file, or what a repair has made of it.
+struct SimulatedMesh {
+  TriangleMesh mesh;  ///< before it is scaled
+  bool changed = false;
+  std::vector<std::string> warnings, notes;  ///< of what was done to it
+};
+
+/// Repairs and remeshes a mesh as the settings say. Throws ErrorCode::invalid_input for a mesh that
+/// cannot be used, with the setting that would mend it.
+SimulatedMesh simulated_mesh(const TriangleMesh& file, const BodyInputs& inputs,
+                             SettingStyle style);
+
 /// The body that the inputs describe, checked.
 struct BodyPlan {
   BodyGeometry geometry;
+  std::string repair;           ///< the options of what was done to the mesh, or empty
   PrecomputeSettings settings;  ///< of the inputs, with another discretisation where one is needed
   PrecomputeOptions options;
   double lam = 0;  ///< time steps that a shear wave takes across the body
   std::vector<std::string> warnings, notes;
 };
 
-/// Checks the mesh, which is given as it is in its file. A body for which the default
+/// A body for which the default
 /// discretisation is not made gets another one, with a warning; without a time step it gets
 /// automatic_time_step(), with a note. Throws ErrorCode::invalid_input for a mesh that cannot be
 /// used, and ErrorCode::usage for a time step or a history that cannot.
-BodyPlan plan_body(TriangleMesh mesh, const BodyInputs& inputs, SettingStyle style);
+BodyPlan plan_body(SimulatedMesh mesh, const BodyInputs& inputs, SettingStyle style);
 
 /// What automatic_time_step() looks at. Throws as plan_body().
 WaveTimes wave_times(TriangleMesh mesh, const BodyInputs& inputs);

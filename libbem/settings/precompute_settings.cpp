@@ -94,6 +94,11 @@ void set_damping(Settings& s, const std::string& name, const std::string& text) 
   refuse(name + " is off or kelvin_voigt:T with a time T > 0 [s], not \"" + text + "\"");
 }
 
+void set_fill_holes(Settings& s, const std::string& name, const std::string& text) {
+  if (text != "small" && text != "all") refuse(name + " is small or all, not \"" + text + "\"");
+  s.fill_all_holes = text == "all";
+}
+
 /// The rows of precompute_settings().
 std::vector<Setting> make_settings() {
   using Kind = Setting::Kind;
@@ -162,7 +167,19 @@ std::vector<Setting> make_settings() {
        set_corner_angle},
       {"damping", Kind::text, true, "LAW",
        "material damping: kelvin_voigt:T with the retardation time T [s], or off (off)",
-       set_damping}};
+       set_damping},
+      {"repair", Kind::text, true, "MODE",
+       "what happens to a mesh that is no closed surface of one solid: off: it is refused; auto: "
+       "the "
+       "gentlest step that works mends it; wrap: it is wrapped in any case (off, in scenes auto)",
+       [](Settings& s, Text name, Text text) { s.repair = named<RepairMode>(name, text); }},
+      {"nodes", Kind::integer, true, "N", "remesh to about so many vertices (the mesh as it is)",
+       [](Settings& s, Text name, Text text) { s.nodes = number_in(name, text, 12, 10000000); }},
+      {"fill-holes", Kind::text, true, "small|all",
+       "with --repair auto: holes that are closed (small)", set_fill_holes},
+      {"thickness", Kind::number, true, "X",
+       "with --repair auto: of sheets, as a part of the size of the mesh (0.02)",
+       [](Settings& s, Text name, Text text) { s.thickness = number_in(name, text, 1e-6, 0.5); }}};
 }
 
 /// Refuses what a model without history does not have.
@@ -271,6 +288,24 @@ std::string PrecomputeSettings::canonical_text() const {
   if (!loads.empty() && loads != "all") text += " --loads " + loads;
   const std::optional<double> corners = corner_angle();
   return text + " --corner-angle-deg " + (corners ? to_text(*corners) : "none");
+}
+
+RepairOptions PrecomputeSettings::repair_options(RepairMode missing) const {
+  RepairOptions options;
+  options.mode = repair.value_or(missing);
+  options.fill_all_holes = fill_all_holes;
+  if (thickness) options.thickness = *thickness;
+  options.nodes = nodes;
+  return options;
+}
+
+std::string PrecomputeSettings::repair_text(RepairMode missing) const {
+  const RepairOptions options = repair_options(missing);
+  std::string text = " --repair " + choice_name(options.mode);
+  if (options.fill_all_holes) text += " --fill-holes all";
+  if (thickness) text += " --thickness " + to_text(*thickness);
+  if (nodes) text += " --nodes " + std::to_string(*nodes);
+  return text;
 }
 
 }  // namespace bem

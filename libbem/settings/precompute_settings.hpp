@@ -4,6 +4,7 @@
 #include "base/material.hpp"
 #include "compress/codec_options.hpp"
 #include "model/model_kinds.hpp"
+#include "repair/repair_options.hpp"
 
 #include <optional>
 #include <string>
@@ -38,6 +39,10 @@ struct PrecomputeSettings {
   bool corners_given = false;  ///< else by the discretisation
   std::optional<double> corner_angle_deg;
   Damping damping;
+  std::optional<RepairMode> repair;  ///< empty: off for bemprecomp, automatic in scenes
+  std::optional<int> nodes;          ///< to which the mesh is remeshed
+  bool fill_all_holes = false;
+  std::optional<double> thickness;  ///< of sheets that are repaired, over the size
 
   bool has_load_file() const { return !loads.empty() && loads != "all" && loads != "none"; }
   std::string scheme_name() const;
@@ -45,8 +50,12 @@ struct PrecomputeSettings {
   SpatialMethod method_or_default() const { return method.value_or(SpatialMethod::galerkin); }
   std::optional<double> corner_angle() const;
   CodecOptions codec_options() const;
-  /// The settings that determine the matrices, but for the time step, as options in a fixed order.
+  /// What happens to the mesh before anything is computed; `missing` where nothing says so.
+  RepairOptions repair_options(RepairMode missing) const;
+  /// The settings that determine the matrices of a mesh that is not repaired, but for the time
+  /// step, as options in a fixed order; and those that determine what a repair makes of it.
   std::string canonical_text() const;
+  std::string repair_text(RepairMode missing) const;
 };
 
 /// One setting: option --NAME of bemprecomp, and in a scene the key key().

@@ -61,6 +61,7 @@ class ScenePreparation {
 
  private:
   const TriangleMesh& mesh_of(const BodySource& source);
+  const SimulatedMesh& simulated(const BodySource& source, const BodyInputs& inputs);
   BodyInputs inputs_of(std::size_t b) const;
   void choose_loads(std::size_t b, BodyInputs& inputs) const;
   bool is_joined(std::size_t b) const;
@@ -77,9 +78,10 @@ class ScenePreparation {
   const ArchiveCache& cache_;
   MissingArchives missing_;
   const PreparationOptions& options_;
-  std::set<std::string> listed_;                ///< paths of archives that are missing
-  std::vector<BodyInputs> inputs_;              ///< by body; empty ones without a source
-  std::map<std::string, TriangleMesh> meshes_;  ///< by path
+  std::set<std::string> listed_;                    ///< paths of archives that are missing
+  std::vector<BodyInputs> inputs_;                  ///< by body; empty ones without a source
+  std::map<std::string, TriangleMesh> meshes_;      ///< by path
+  std::map<std::string, SimulatedMesh> simulated_;  ///< by path and what is done to it
 };
 
 /// As it is in its file, which is read once.
@@ -91,12 +93,26 @@ const TriangleMesh& ScenePreparation::mesh_of(const BodySource& source) {
       .first->second;
 }
 
+/// What is made of it, which is done once.
+const SimulatedMesh& ScenePreparation::simulated(const BodySource& source,
+                                                 const BodyInputs& inputs) {
+  const std::string key = source.mesh.resolved + inputs.settings.repair_text(inputs.repair);
+  const auto known = simulated_.find(key);
+  if (known != simulated_.end()) return known->second;
+  return simulated_.emplace(key, simulated_mesh(mesh_of(source), inputs, kStyle)).first->second;
+}
+
 BodyInputs ScenePreparation::inputs_of(std::size_t b) const {
   const BodySpec& body = scene_.bodies[b];
   if (!body.source) return {};
   const BodySource& source = *body.source;
-  BodyInputs inputs{source.mesh.resolved,         source.mesh_scale, source.material,
-                    source.material_path.written, source.settings,   {}};
+  BodyInputs inputs;
+  inputs.mesh = source.mesh.resolved;
+  inputs.mesh_scale = source.mesh_scale;
+  inputs.material = source.material;
+  inputs.material_name = source.material_path.written;
+  inputs.settings = source.settings;
+  inputs.repair = RepairMode::automatic;
   choose_loads(b, inputs);
   return inputs;
 }
@@ -132,10 +148,10 @@ void ScenePreparation::choose_time_step() {
       return;
     }
     if (inputs_[b].settings.model == ModelKind::rigid) continue;
-    const TriangleMesh& mesh = mesh_of(*body.source);
-    if (!seen.insert(text_of_all(inputs_[b], mesh)).second) continue;
-    times.push_back(
-        at_place(body.source->mesh.location, [&] { return wave_times(mesh, inputs_[b]); }));
+    if (!seen.insert(text_of_all(inputs_[b], mesh_of(*body.source))).second) continue;
+    times.push_back(at_place_of_input(body.source->mesh.location, [&] {
+      return wave_times(simulated(*body.source, inputs_[b]).mesh, inputs_[b]);
+    }));
   }
   scene_.time_step = automatic_time_step(times, options_.frame_interval);
   options_.note("the time step is " + to_text(scene_.time_step) +
@@ -155,6 +171,7 @@ std::string ScenePreparation::text_of_all(const BodyInputs& inputs,
                      m.name + " " + to_text(m.density) + " " + to_text(m.shear_modulus) + " " +
                      to_text(m.poisson_ratio) + "\ntime step " + to_text(scene_.time_step) + "\n" +
                      inputs.settings.canonical_text();
+  text += inputs.settings.repair_text(inputs.repair);
   if (inputs.settings.measure_growth) text += " --measure-growth";
   if (inputs.settings.has_load_file()) text += "\nloads " + digest_of_file(inputs.settings.loads);
   for (const Selection& selection : inputs.loaded) text += "\nloads on " + to_text(selection);
@@ -192,7 +209,8 @@ void ScenePreparation::open(const BodySpec& body, const BodyInputs& inputs) {
 
 /// Says what has to be computed.
 BodyPlan ScenePreparation::plan(const BodySpec& body, const BodyInputs& inputs) {
-  BodyPlan plan = plan_body(mesh_of(*body.source), inputs, kStyle);
+  BodyPlan plan = plan_body(simulated(*body.source, inputs), inputs, kStyle);
+  for (const std::string& note : plan.notes) options_.note(note);
   for (const std::string& warning : plan.warnings) options_.warn(warning);
   const bool compute = missing_ == MissingArchives::compute;
   options_.note(

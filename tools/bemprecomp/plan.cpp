@@ -96,8 +96,13 @@ double seconds_per_byte_of_products() {
 
 Plan make_plan(const Options& o) {
   Plan plan;
-  plan.inputs = {o.mesh, o.mesh_scale, find_material(o.material), o.material, o.settings, {}};
-  plan.body = plan_body(read_mesh(o.mesh), plan.inputs, SettingStyle::option);
+  plan.inputs.mesh = o.mesh;
+  plan.inputs.mesh_scale = o.mesh_scale;
+  plan.inputs.material = find_material(o.material);
+  plan.inputs.material_name = o.material;
+  plan.inputs.settings = o.settings;
+  plan.body = plan_body(simulated_mesh(read_mesh(o.mesh), plan.inputs, SettingStyle::option),
+                        plan.inputs, SettingStyle::option);
   if (o.settings.model == ModelKind::rigid)
     plan.archive_bytes = archive_bytes(plan.body.geometry, plan.body.options, 0);
   else
