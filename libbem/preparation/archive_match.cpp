@@ -37,6 +37,10 @@ std::string difference_of_loads(const Archive& archive, const PrecomputeOptions&
 
 }  // namespace
 
+bool is_repaired(const Archive& archive) {
+  return archive.provenance().options.find(" --repair ") != std::string::npos;
+}
+
 std::string difference_from_mesh(const Archive& archive, TriangleMesh mesh, double scale) {
   for (Vec3& v : mesh.vertices) v *= scale;
   return difference_of_meshes(archive.geometry().input, mesh);

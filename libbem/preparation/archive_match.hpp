@@ -10,6 +10,9 @@ namespace bem {
 // How an archive differs from what it is held to, for messages: "has another mesh: 42 vertices
 // instead of 64". Empty if it does not.
 
+/// Whether the archive is of a mesh that a repair or a remeshing has made of its file.
+bool is_repaired(const Archive& archive);
+
 /// From a mesh as it is in its file, times a factor, and from a material.
 std::string difference_from_mesh(const Archive& archive, TriangleMesh mesh, double scale);
 std::string difference_from_material(const Archive& archive, const Material& material);

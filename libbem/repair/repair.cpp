@@ -103,7 +103,8 @@ class Repair {
     out_.report.sheet = true;
     tell("the mesh is a sheet without an inside: it was given a thickness of " +
          metres(options_.thickness) + " (" + rounded_text(100 * options_.thickness, 3) +
-         " % of its size; --thickness chooses another)");
+         " % of its size; the option thickness chooses another, and fill-holes all closes the "
+         "surface instead)");
   }
 
   bool thicken_sheet(const Mended& mended) {

@@ -37,6 +37,20 @@ std::string text_of(const TriangleMesh& mesh) {
   return digest_of_items(mesh.vertices) + " " + digest_of_items(mesh.triangles);
 }
 
+/// Numbers of vertices and triangles are those of the mesh file, and mean others, or none, of a
+/// mesh that was made of it.
+void refuse_numbers(const BodySpec& body) {
+  const auto check = [](const Selection& s) {
+    if (s.kind == Selection::Kind::vertices || s.kind == Selection::Kind::triangles)
+      throw error_at(s.location,
+                     "the mesh was repaired or remeshed, so that its vertices and triangles, and "
+                     "groups of them, have no numbers; select by a box, sphere or plane");
+  };
+  for (const Selection& s : body.fixed) check(s);
+  for (const HandleSpec& handle : body.handles) check(handle.select);
+  for (const TractionSpec& traction : body.tractions) check(traction.select);
+}
+
 /// The steps of prepare_scene().
 class ScenePreparation {
  public:
@@ -205,11 +219,14 @@ void ScenePreparation::open(const BodySpec& body, const BodyInputs& inputs) {
     at_place_of_input(body.source->mesh.location, [&] { compute(body, inputs); });
     source_.open(body.archive);
   }
+  if (is_repaired(source_.open(body.archive))) refuse_numbers(body);
 }
 
 /// Says what has to be computed.
 BodyPlan ScenePreparation::plan(const BodySpec& body, const BodyInputs& inputs) {
-  BodyPlan plan = plan_body(simulated(*body.source, inputs), inputs, kStyle);
+  const SimulatedMesh& mesh = simulated(*body.source, inputs);
+  if (mesh.changed) refuse_numbers(body);
+  BodyPlan plan = plan_body(mesh, inputs, kStyle);
   for (const std::string& note : plan.notes) options_.note(note);
   for (const std::string& warning : plan.warnings) options_.warn(warning);
   const bool compute = missing_ == MissingArchives::compute;
@@ -239,7 +256,9 @@ void ScenePreparation::compute(const BodySpec& body, const BodyInputs& inputs) {
 void ScenePreparation::compare(const BodySpec& body) {
   const BodySource& from = *body.source;
   const Archive& archive = source_.open(body.archive);
-  std::string difference = difference_from_mesh(archive, mesh_of(from), from.mesh_scale);
+  std::string difference;
+  if (!is_repaired(archive))
+    difference = difference_from_mesh(archive, mesh_of(from), from.mesh_scale);
   if (difference.empty()) difference = difference_from_material(archive, from.material);
   if (!difference.empty())
     throw Error(ErrorCode::archive,

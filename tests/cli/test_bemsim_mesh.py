@@ -180,6 +180,90 @@ class Inputs(MeshCase):
         self.assert_error(self.run_scene(expect=3), '"precompute"', "no effect")
 
 
+class Repair(MeshCase):
+    """Meshes that are no closed surface of one solid."""
+    CUBE = """mtllib skin.mtl
+v 0 0 0\nv .2 0 0\nv .2 .2 0\nv 0 .2 0\nv 0 0 .2\nv .2 0 .2\nv .2 .2 .2\nv 0 .2 .2
+vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1
+usemtl skin
+g sides
+f 1/1 2/2 6/3 5/4\nf 2/1 3/2 7/3 6/4\nf 3/1 4/2 8/3 7/4\nf 4/1 1/2 5/3 8/4
+g ends
+f 4/1 3/2 2/3 1/4\nf 5/1 6/2 7/3 8/4
+"""
+
+    def setUp(self):
+        super().setUp()
+        self.body["mesh"] = "cube.obj"
+        self.scene["output"] = {"formats": ["hdf5", "obj"]}
+        (self.folder / "skin.mtl").write_text("newmtl skin\n")
+        self.write_mesh(self.CUBE)
+
+    def write_mesh(self, text):
+        (self.folder / "cube.obj").write_text(text)
+
+    def frame(self):
+        return (self.folder / "out/obj/ball_000005.obj").read_text()
+
+    def lines(self, text, *words):
+        return [line for line in text.splitlines() if line.split(" ")[0] in words]
+
+    def test_a_mesh_comes_back_with_its_faces_and_texture(self):
+        self.run_scene()
+        for word in ("f", "vt", "usemtl", "g"):
+            self.assertEqual(self.lines(self.frame(), word), self.lines(self.CUBE, word))
+        heights = [float(line.split()[2]) for line in self.lines(self.frame(), "v")]
+        self.assertAlmostEqual(min(heights), -9.81 * 0.05 ** 2 / 2, 4)
+        with h5py.File(self.folder / "out/trajectory.h5") as file:
+            self.assertEqual(file["bodies/ball/faces"].shape, (12, 3))
+
+    def test_off_refuses_and_names_the_cure(self):
+        self.body["precompute"]["repair"] = "off"
+        self.write_mesh(self.CUBE.replace("\nf 5/1 6/2 7/3 8/4", ""))
+        self.assert_error(self.run_scene(expect=3), "/bodies/0/mesh", "cube.obj", '"repair": "auto" would mend it')
+
+    def test_holes_are_filled(self):
+        self.write_mesh(self.CUBE.replace("\nf 5/1 6/2 7/3 8/4", ""))
+        self.body["precompute"]["fill_holes"] = "all"
+        self.assertIn("filled 1 hole", self.run_scene().stderr)
+        self.assertEqual(len(self.lines(self.frame(), "f")), 5)
+        self.assertNotIn("filled", self.run_scene().stderr)
+
+    def test_sheets_are_warned_of(self):
+        self.write_mesh("v 0 0 0\nv .2 0 0\nv .2 .2 0\nv 0 .2 0\nf 1 2 3 4\n")
+        self.body["precompute"]["nodes"] = 40
+        self.assertRegex(self.run_scene().stderr, "warning: .*cube.obj: the mesh is a sheet without an inside: .*thickness")
+        self.assertEqual(self.lines(self.frame(), "f"), ["f 1 2 3 4"])
+
+    def test_nodes(self):
+        self.body["precompute"]["nodes"] = 100
+        done = self.run_scene()
+        nodes = int(done.stderr.split("computing the matrices of ")[1].split()[0])
+        self.assertTrue(90 <= nodes <= 115, nodes)
+        self.assertEqual(self.lines(self.frame(), "f"), self.lines(self.CUBE, "f"))
+        with h5py.File(self.folder / "out/trajectory.h5") as file:
+            self.assertEqual(file["bodies/ball/positions"].shape[1], 8)
+
+    def test_groups_of_the_mesh(self):
+        self.body["fixed"] = [{"group": "ends"}]
+        self.run_scene()
+        self.body["fixed"] = [{"group": "end"}]
+        self.assert_error(self.run_scene(expect=3), "/bodies/0/fixed/0", "ends")
+        self.body["fixed"] = [{"group": "ends"}]
+        self.body["precompute"]["nodes"] = 100
+        done = self.run_scene(expect=3)
+        self.assertRegex(done.stderr, "error: .*/bodies/0/fixed/0: .* have no numbers")
+        self.assertNotIn("computing", done.stderr)
+
+    def test_resume_with_the_own_mesh(self):
+        self.run_scene("--checkpoint-every", 2)
+        whole = self.frame()
+        self.run_scene("--checkpoint-every", 2, "--steps", 2)
+        scene = self.written_scene()
+        program("bemsim", scene, "-o", self.folder / "out", "--resume", "--checkpoint-every", 2, "--cache", self.folder / "cache")
+        self.assertEqual(self.frame(), whole)
+
+
 class TimeStep(MeshCase):
     def test_automatic(self):
         self.scene["time_step"] = "auto"

@@ -20,6 +20,8 @@ struct PlannedBody {
   std::size_t fixed = 0, handled = 0;  ///< vertices (nodes) with prescribed positions
   std::vector<std::size_t> loaded;     ///< triangles by load
   std::shared_ptr<const BoundMesh> render = nullptr;  ///< where one is written
+  /// The render mesh is the simulated surface, with faces and texture coordinates as in its file.
+  bool shows_surface = false;
 };
 
 /// An obstacle, and what its mesh holds with; a plane has none.

@@ -15,6 +15,7 @@ bool writes_tractions(const Scene& scene) {
 }
 
 bool writes_simulated_surface(const Plan& plan, const PlannedBody& body) {
+  if (body.shows_surface) return false;
   return !body.render || plan.scene.output.surface == OutputSurface::both;
 }
 
@@ -30,8 +31,10 @@ TrajectoryBody simulated_body(const PlannedBody& body, bool tractions) {
 
 TrajectoryBody render_body(const PlannedBody& body, bool tractions) {
   const TriangleMesh& mesh = body.render->mesh()->triangles;
-  return {body.spec->name, mesh.vertices.size(),      mesh.triangles,     tractions,
-          mesh.vertices,   TrajectorySurface::render, body.render->mesh()};
+  const TrajectorySurface surface =
+      body.shows_surface ? TrajectorySurface::only : TrajectorySurface::render;
+  return {body.spec->name, mesh.vertices.size(), mesh.triangles, tractions, mesh.vertices,
+          surface,         body.render->mesh()};
 }
 
 /// The frame is that of the mesh coordinates: without displacements a vertex with mesh coordinates
@@ -97,7 +100,11 @@ std::vector<BodyFrame> body_frames(const Plan& plan, const Simulation& simulatio
     const PlannedBody& planned = plan.bodies[i];
     const Body& body = simulation.bodies()[i];
     const BodyFrame place = place_of(*planned.spec, body);
-    if (planned.render) add(body, render_frame(place, *planned.render, body, tractions));
+    if (planned.render) {
+      BodyFrame frame = render_frame(place, *planned.render, body, tractions);
+      if (planned.shows_surface) frame = simulated_frame(std::move(frame), body, tractions);
+      add(body, std::move(frame));
+    }
     if (writes_simulated_surface(plan, planned)) add(body, simulated_frame(place, body, tractions));
   }
   return frames;

@@ -149,7 +149,7 @@ TEST_CASE("errors name the file that the mistake is in") {
         "scene.json:1:46: /bodies/0/name: the name \"a\" is already used at base.json:1:70: "
         "/bodies/0/name");
   CHECK(with_base("{\"version\": 1}") ==
-        "scene.json:1:1: the required key \"time_step\" is missing");
+        "scene.json:1:1: the required key \"duration\" is missing");
 }
 
 TEST_CASE("includes that lead nowhere or to themselves are refused") {

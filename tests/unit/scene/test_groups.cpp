@@ -34,7 +34,7 @@ std::vector<int> nodes_where(const Inside& inside) {
   return {nodes.begin(), nodes.end()};
 }
 
-std::string error_of(const std::string& members) {
+std::string group_error(const std::string& members) {
   return bem::test::scene_error(scene_with_body(members));
 }
 
@@ -78,15 +78,15 @@ TEST_CASE("groups of a body are selections by name") {
 TEST_CASE("unknown groups are told of with those that there are") {
   const std::string hint =
       "; those of a mesh file are not in an archive: write them to the body's \"groups\")";
-  CHECK(error_of(R"(,"fixed": [{"group": "tpi"}], "groups": {"tip": "all", "base": "all"})") ==
+  CHECK(group_error(R"(,"fixed": [{"group": "tpi"}], "groups": {"tip": "all", "base": "all"})") ==
         "s.json:4:12: /bodies/0/fixed/0: there is no group \"tpi\"; did you mean \"tip\"? "
         "(groups here: \"base\", \"tip\"" +
             hint);
-  CHECK(error_of(R"(,"fixed": [{"group": "tpi"}])") ==
+  CHECK(group_error(R"(,"fixed": [{"group": "tpi"}])") ==
         "s.json:4:12: /bodies/0/fixed/0: there is no group \"tpi\" (groups here: none" + hint);
-  CHECK(error_of(R"(,"groups": {"a": {"group": "b"}, "b": "all"})") ==
+  CHECK(group_error(R"(,"groups": {"a": {"group": "b"}, "b": "all"})") ==
         "s.json:4:18: /bodies/0/groups/a: a group cannot consist of another one");
-  CHECK(error_of(R"(,"groups": [1])") ==
+  CHECK(group_error(R"(,"groups": [1])") ==
         "s.json:4:12: /bodies/0/groups: expected the groups of a body (an object), found an array "
         "of length 1");
 }

@@ -17,7 +17,7 @@ bem::Material material_of(const std::string& file, const std::string& json) {
   return bem::read_material_value(bem::JsonValue(document, document.root()));
 }
 
-std::string error_of(const std::string& json) {
+std::string named_material_error(const std::string& json) {
   return bem::test::message_of([&] { material_of("s.json", json); });
 }
 
@@ -67,14 +67,14 @@ TEST_CASE("a material is a name, a path or an object") {
 }
 
 TEST_CASE("a misspelt material is answered with the names") {
-  CHECK(error_of("\"ruber\"")
+  CHECK(named_material_error("\"ruber\"")
             .find("s.json:1:1: there is no material \"ruber\"; did you mean \"rubber\"? "
                   "(materials: soft silicone, ") == 0);
-  CHECK(error_of("\"unobtainium\"").find("there is no material \"unobtainium\" (materials: ") !=
+  CHECK(named_material_error("\"unobtainium\"").find("there is no material \"unobtainium\" (materials: ") !=
         std::string::npos);
-  CHECK(error_of("\"no/rubber\"").find("no/rubber: cannot be opened") != std::string::npos);
-  CHECK(error_of("\"ruber.json\"").find("ruber.json: cannot be opened") != std::string::npos);
-  CHECK(error_of("7") ==
+  CHECK(named_material_error("\"no/rubber\"").find("no/rubber: cannot be opened") != std::string::npos);
+  CHECK(named_material_error("\"ruber.json\"").find("ruber.json: cannot be opened") != std::string::npos);
+  CHECK(named_material_error("7") ==
         "s.json:1:1: expected a material (a name, a path, or an object), found the number 7");
-  CHECK(error_of("{\"name\": \"x\"}") == "s.json:1:1: the required key \"density\" is missing");
+  CHECK(named_material_error("{\"name\": \"x\"}") == "s.json:1:1: the required key \"density\" is missing");
 }

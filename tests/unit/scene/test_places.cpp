@@ -20,7 +20,7 @@ bem::PlaceSpec place_of(const std::string& place, const std::string& more = "") 
 }
 
 /// The error, without "s.json:LINE:COLUMN: /bodies/0/place".
-std::string error_of(const std::string& place, const std::string& more = "") {
+std::string place_error(const std::string& place, const std::string& more = "") {
   const std::string message = bem::test::scene_error(scene_with_place(place, more));
   const std::string start = "/bodies/0/place";
   const auto at = message.find(start);
@@ -57,24 +57,24 @@ TEST_CASE("copies of a placed body remember their offsets") {
 }
 
 TEST_CASE("places are checked") {
-  CHECK(error_of("{}") == ": one of the keys on, center is required");
-  CHECK(error_of(R"({"on": "flor"})") ==
+  CHECK(place_error("{}") == ": one of the keys on, center is required");
+  CHECK(place_error(R"({"on": "flor"})") ==
         "/on: expected the name of an obstacle of this scene, found \"flor\"; did you mean "
         "\"floor\"?");
-  CHECK(error_of(R"({"on": "a"})") ==
+  CHECK(place_error(R"({"on": "a"})") ==
         "/on: expected the name of an obstacle of this scene, found \"a\"");
-  CHECK(error_of(R"({"on": ""})") ==
+  CHECK(place_error(R"({"on": ""})") ==
         "/on: expected the name of an obstacle, found the string \"\"");
-  CHECK(error_of(R"({"center": [0, 0, 0], "gap": 1})") ==
+  CHECK(place_error(R"({"center": [0, 0, 0], "gap": 1})") ==
         "/gap: \"gap\" is allowed only beside \"on\"");
-  CHECK(error_of(R"({"on": "floor", "gap": -1})") ==
+  CHECK(place_error(R"({"on": "floor", "gap": -1})") ==
         "/gap: expected a length >= 0, found the number -1");
-  CHECK(error_of(R"({"on": "bowl"})") ==
+  CHECK(place_error(R"({"on": "bowl"})") ==
         ": a scene without gravity needs a \"direction\" here, in which the body falls onto "
         "\"bowl\"");
-  CHECK(error_of(R"({"on": "floor", "direction": [0, -1, 0]})") ==
+  CHECK(place_error(R"({"on": "floor", "direction": [0, -1, 0]})") ==
         ": \"direction\" is for obstacles with a mesh; a body comes to lie on a plane along its "
         "normal");
-  CHECK(error_of(R"({"on": "floor"}, "position": [0, 0, 0])") ==
+  CHECK(place_error(R"({"on": "floor"}, "position": [0, 0, 0])") ==
         ": \"place\" is not allowed beside \"position\"");
 }

@@ -56,12 +56,12 @@ bool beyond_schema(const std::string& message) {
   // Includes and defaults may have the keys that scenes, bodies and obstacles need.
   static const std::regex missing(
       "^s.json:[0-9:]* (/(bodies|obstacles)/[0-9]+: )?(the required key|one of the keys (plane, "
-      "mesh))");
+      "mesh|archive, mesh))");
   if (std::regex_search(message, missing)) return true;
   for (const char* part :
        {"the zero vector", "a later time than", "\"max\" >= \"min\"", "already used at",
         "of this scene, found", "is for obstacles with a mesh", "needs a \"direction\"",
-        "there is no group", "cannot consist of another one", "copies, found", " to include ",
+        "there is no group", "there is no material", "cannot consist of another one", "copies, found", " to include ",
         "/precompute/", "/precompute: ", "cannot be opened", "cannot be read",
         "speed of shear waves", "another body than", "time steps, found a duration",
         // what the unit of a string measures

@@ -23,7 +23,7 @@ void check_value(const std::string& text, double value, const Dimension& dimensi
 }
 
 /// The error of a scene whose body has these members.
-std::string body_error(const std::string& members) {
+std::string unit_error(const std::string& members) {
   return bem::test::scene_error(bem::test::scene_with_body(members));
 }
 
@@ -149,22 +149,22 @@ TEST_CASE("a material means the same in numbers and in units") {
 }
 
 TEST_CASE("a unit of another dimension is an error that names both") {
-  CHECK(body_error(",\"position\": [0, \"3 s\", 0]") ==
+  CHECK(unit_error(",\"position\": [0, \"3 s\", 0]") ==
         "s.json:4:18: /bodies/0/position/1: expected a length, found a time, \"3 s\"");
-  CHECK(body_error(",\"friction\": \"3 m\"") ==
+  CHECK(unit_error(",\"friction\": \"3 m\"") ==
         "s.json:4:14: /bodies/0/friction: expected a number >= 0, found a length, \"3 m\"");
-  CHECK(body_error(",\"angular_velocity\": [\"3 s^-1\", 0, 0]") ==
+  CHECK(unit_error(",\"angular_velocity\": [\"3 s^-1\", 0, 0]") ==
         "s.json:4:23: /bodies/0/angular_velocity/0: expected an angular velocity, found a quantity "
         "in s^-1, "
         "\"3 s^-1\"");
-  CHECK(body_error(",\"position\": [0, \"3 mmm\", 0]")
+  CHECK(unit_error(",\"position\": [0, \"3 mmm\", 0]")
             .find("s.json:4:18: /bodies/0/position/1: unknown unit \"mmm\" in \"3 mmm\"; did you "
                   "mean \"mm\"?") == 0);
-  CHECK(body_error(",\"position\": [0, \"3\", 0]") ==
+  CHECK(unit_error(",\"position\": [0, \"3\", 0]") ==
         "s.json:4:18: /bodies/0/position/1: expected a length (a number in m, or a string such as "
         "\"12 mm\"), "
         "found the string \"3\"");
-  CHECK(body_error(",\"rotation\": {\"axis\": [0,0,1], \"angle_deg\": \"1 m\"}")
+  CHECK(unit_error(",\"rotation\": {\"axis\": [0,0,1], \"angle_deg\": \"1 m\"}")
             .find("expected an angle, found a length, \"1 m\"") != std::string::npos);
   CHECK(bem::test::scene_error(bem::test::scene_with(",\"contact\": {\"tolerance\": \"-1 mm\"}")) ==
         "s.json:2:27: /contact/tolerance: expected a length > 0, found the string \"-1 mm\"");
