@@ -79,6 +79,10 @@ struct Contact {
   double gap_start = 0;              ///< normal . offset_start [m]
   double gap_end = 0;                ///< g at the predicted end [m]
   ContactKey key;
+  /// A vertex that has entered backwards, through a triangle that no side of it faces, and ends
+  /// inside. Such motions are predicted where other contacts are still missing, and mean something
+  /// only when these are met.
+  bool backward = false;
 };
 
 }  // namespace bem

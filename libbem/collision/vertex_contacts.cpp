@@ -59,6 +59,7 @@ class VertexContacts {
       if (is_needed(p) && faces(a_, vertex_, p.time, p.normal)) accepted_.push_back(p);
     if (accepted_.empty() && entered_) accept_inside();
     for (const Proposal& p : accepted_) contacts.push_back(contact(p));
+    if (backward_) contacts.back().backward = true;
   }
 
  private:
@@ -114,6 +115,7 @@ class VertexContacts {
     if (!near.inside || near.distance <= limits_.tolerance) return;
     const NearestPoint& on = near.candidate->end.closest;
     const Vec3 normal = near.normal.normalized();
+    backward_ = true;
     accepted_.push_back(
         {1, normal, near.candidate->triangle, on.weights, on.point, normal.dot(end_ - on.point)});
   }
@@ -279,7 +281,8 @@ class VertexContacts {
   double inclusive_;  ///< a foot this far outside a triangle is still on it [m]
   double rim_;        ///< a foot this far inside a triangle is beside its edge [m]
   Vec3 start_, end_;
-  bool entered_ = false;  ///< the vertex goes through a triangle in the step
+  bool entered_ = false;   ///< the vertex goes through a triangle in the step
+  bool backward_ = false;  ///< see Contact::backward
   std::vector<Candidate> candidates_;
   std::vector<Proposal> proposals_, accepted_;
 };

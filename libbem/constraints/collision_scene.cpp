@@ -206,8 +206,12 @@ std::vector<ContactPair> CollisionScene::detect() {
   std::vector<SurfaceMotion> motions;
   for (std::size_t s = 0; s < start_.size(); ++s) motions.push_back({&start_[s], &end_[s]});
   std::vector<ContactPair> pairs;
-  for (const Contact& c : detector_.detect(motions, pressed_, deepest_))
-    pairs.push_back(pair_of(c));
+  const std::vector<Contact> contacts = detector_.detect(motions, pressed_, deepest_);
+  const bool unmet = std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+    return !c.backward && c.gap_end < -tolerances_.tolerance;
+  });
+  for (const Contact& c : contacts)
+    if (!c.backward || !unmet) pairs.push_back(pair_of(c));
   return pairs;
 }
 

@@ -143,10 +143,9 @@ void Planner::load(const std::vector<Selection>& selections) {
 double Planner::time_step() {
   if (settings().time_step) return *settings().time_step;
   if (inputs_.material.time_step) return *inputs_.material.time_step;
-  const double step = automatic_time_step(
-      {wave_times(plan_.geometry.input, plan_.geometry.extent, inputs_.material)});
+  const double step = automatic_time_step({crossing_time(plan_.geometry.extent, inputs_.material)});
   plan_.notes.push_back("no time step is given: " + to_text(step) +
-                        " s, from the speed of shear waves and the edges of the mesh; a scene with "
+                        " s, in eight of which a shear wave crosses the body; a scene with "
                         "this archive needs \"time_step\": " +
                         to_text(step) + " or \"auto\"");
   return step;
@@ -230,9 +229,8 @@ BodyPlan plan_body(SimulatedMesh mesh, const BodyInputs& inputs, SettingStyle st
   return Planner(inputs, style).run(std::move(mesh));
 }
 
-WaveTimes wave_times(TriangleMesh mesh, const BodyInputs& inputs) {
-  const Surface surface = surface_of(std::move(mesh), inputs);
-  return wave_times(surface.nodes, diameter(surface.nodes.vertices), inputs.material);
+double crossing_time(const SimulatedMesh& mesh, const BodyInputs& inputs) {
+  return crossing_time(inputs.mesh_scale * diameter(mesh.mesh.vertices), inputs.material);
 }
 
 Provenance provenance_of(const BodyInputs& inputs, const BodyPlan& plan,

@@ -52,8 +52,8 @@ struct BodyPlan {
 /// used, and ErrorCode::usage for a time step or a history that cannot.
 BodyPlan plan_body(SimulatedMesh mesh, const BodyInputs& inputs, SettingStyle style);
 
-/// What automatic_time_step() looks at. Throws as plan_body().
-WaveTimes wave_times(TriangleMesh mesh, const BodyInputs& inputs);
+/// Of the simulated mesh, for automatic_time_step() [s].
+double crossing_time(const SimulatedMesh& mesh, const BodyInputs& inputs);
 
 /// What the archive of a planned body says of where it comes from.
 Provenance provenance_of(const BodyInputs& inputs, const BodyPlan& plan,

@@ -1,28 +1,22 @@
 #pragma once
 
 #include "base/material.hpp"
-#include "mesh/body_geometry.hpp"
 
 #include <optional>
 #include <vector>
 
 namespace bem {
 
-/// What the choice of a time step looks at, of one deformable body.
-struct WaveTimes {
-  double edge = 0;    ///< time that a shear wave takes along an edge of median length [s]
-  double extent = 0;  ///< and across the body [s]
-};
-WaveTimes wave_times(const TriangleMesh& mesh, double extent, const Material& material);
+/// The time that a shear wave takes across a deformable body [s].
+double crossing_time(double extent, const Material& material);
 
-/// A time step for these bodies: the time that a shear wave takes along an edge of the body with
-/// the shortest such time, at most an eighth of what it takes across the body (an impact lasts for
-/// about twice that time), and at most a fiftieth of a second. No body gets a history that is
-/// expensive: the step is at least a thirtieth of the longest time across a body, also where
-/// stiffer bodies would need a shorter one. The step is rounded down to one or two digits; where
-/// frames are written every `frame_interval` [s], to a whole part of that. No bodies: a hundredth
-/// of a second.
-double automatic_time_step(const std::vector<WaveTimes>& bodies,
+/// A time step for bodies with these crossing times: an eighth of the shortest one. (An impact
+/// lasts for about two crossings, the slowest vibration of a compact body for a little more than
+/// one; the cost of matrices grows with the number of steps in a crossing.) No body is crossed in
+/// more than thirty steps, also where stiffer bodies would need a shorter step. The step is at most
+/// a fiftieth of a second and is rounded down to one or two digits; where frames are written every
+/// `frame_interval` [s], to a whole part of that. No bodies: a hundredth of a second.
+double automatic_time_step(const std::vector<double>& crossings,
                            std::optional<double> frame_interval = std::nullopt);
 
 }  // namespace bem

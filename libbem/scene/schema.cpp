@@ -25,16 +25,16 @@ void write_defaults(std::string& schema) {
   replace_mark(schema, "\"properties\": \"of obstacle\"", properties + obstacle + "}");
 }
 
-const char* type_of(Setting::Kind kind) {
+const char* rule_of(Setting::Kind kind) {
   switch (kind) {
     case Setting::Kind::number:
-      return R"("number")";
+      return R"("$ref": "#/$defs/quantity")";
     case Setting::Kind::integer:
-      return R"("integer")";
+      return R"("type": "integer")";
     case Setting::Kind::flag:
-      return R"("boolean")";
+      return R"("type": "boolean")";
     case Setting::Kind::text:
-      return R"(["string", "number"])";
+      return R"("type": ["string", "number"])";
   }
   return "";
 }
@@ -46,8 +46,7 @@ void list_settings(std::string& schema) {
   for (const Setting& setting : precompute_settings())
     if (setting.in_scenes)
       members += (members.empty() ? "" : ",") + std::string("\n        \"") + setting.key() +
-                 "\": {\"description\": \"" + setting.help +
-                 "\", \"type\": " + type_of(setting.kind) + "}";
+                 "\": {\"description\": \"" + setting.help + "\", " + rule_of(setting.kind) + "}";
   const std::size_t at = schema.find(mark);
   require(at != std::string::npos, "the schema has the settings");
   schema.replace(at, mark.size(), "{" + members + "\n      }");
@@ -81,7 +80,7 @@ const std::string& scene_schema() {
   "properties": {
     "version": {"description": "Version of this format.", "const": 1},
     "time_step": {
-      "description": "Time step [s]; that of every archive of the scene. auto: that of the archives, else from the speed of waves and the edges of the meshes; default auto.",
+      "description": "Time step [s]; that of every archive of the scene. auto: that of the archives, else from the time that waves take across the bodies; default auto.",
       "anyOf": [{"$ref": "#/$defs/positive"}, {"const": "auto"}]
     },
     "duration": {"description": "Simulated time [s].", "$ref": "#/$defs/non_negative"},
@@ -241,7 +240,7 @@ const std::string& scene_schema() {
         "name": {"$ref": "#/$defs/name"},
         "mesh": {"description": "Closed mesh of the body, from which its matrices are computed where there is no archive.", "$ref": "#/$defs/path"},
         "material": {"description": "Material of the body.", "oneOf": [{"$ref": "#/$defs/path"}, {"$ref": "#/$defs/material"}]},
-        "mesh_scale": {"description": "Factor on the coordinates of the mesh; default 1.", "type": "number", "exclusiveMinimum": 0},
+        "mesh_scale": {"description": "Factor on the coordinates of the mesh; default 1.", "$ref": "#/$defs/positive"},
         "precompute": {"$ref": "#/$defs/precompute"},
         "archive": {"description": "Matrix archive written by bemprecomp.", "$ref": "#/$defs/path"},
         "render_mesh": {"description": "Mesh that trajectories show in place of the simulated surface, which moves it; default none.", "$ref": "#/$defs/path"},
@@ -269,7 +268,7 @@ const std::string& scene_schema() {
       "properties": {
         "name": {"description": "Any text.", "type": "string", "maxLength": 1000, "pattern": "^[^\\u0000-\\u001f\\u007f]*$"},
         "density": {"description": "Mass per volume [kg/m^3].", "$ref": "#/$defs/positive"},
-        "poisson_ratio": {"description": "0.5 is incompressible.", "type": "number", "minimum": 0, "maximum": 0.5},
+        "poisson_ratio": {"description": "0.5 is incompressible.", "$ref": "#/$defs/quantity", "minimum": 0, "maximum": 0.5},
         "shear_modulus": {"description": "[Pa]", "$ref": "#/$defs/positive"},
         "youngs_modulus": {"description": "[Pa]", "$ref": "#/$defs/positive"},
         "time_step": {"description": "Time step of archives [s], where none is given.", "$ref": "#/$defs/positive"}

@@ -149,7 +149,7 @@ bool ScenePreparation::is_joined(std::size_t b) const {
 }
 
 void ScenePreparation::choose_time_step() {
-  std::vector<WaveTimes> times;
+  std::vector<double> times;
   std::set<std::string> seen;
   for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
     const BodySpec& body = scene_.bodies[b];
@@ -164,12 +164,12 @@ void ScenePreparation::choose_time_step() {
     if (inputs_[b].settings.model == ModelKind::rigid) continue;
     if (!seen.insert(text_of_all(inputs_[b], mesh_of(*body.source))).second) continue;
     times.push_back(at_place_of_input(body.source->mesh.location, [&] {
-      return wave_times(simulated(*body.source, inputs_[b]).mesh, inputs_[b]);
+      return crossing_time(simulated(*body.source, inputs_[b]), inputs_[b]);
     }));
   }
   scene_.time_step = automatic_time_step(times, options_.frame_interval);
   options_.note("the time step is " + to_text(scene_.time_step) +
-                " s, from the speed of shear waves and the edges of the meshes");
+                " s, in eight of which a shear wave crosses the body that it crosses fastest");
 }
 
 /// Everything that the bytes of an archive depend on.

@@ -53,6 +53,7 @@ TEST_CASE("a vertex that enters backwards and ends inside is held by what is nea
   CHECK((contacts[0].normal + Vec3::UnitZ()).norm() < 1e-12);
   CHECK((contacts[0].point - Vec3(0.13, 0.1, -0.05)).norm() < 1e-12);
   CHECK(contacts[0].gap_end == Approx(-0.02));
+  CHECK(contacts[0].backward);
   // It has left again.
   CHECK(tip_contacts(kSlab, {0.1, 0.13, -0.07}, {0.1, 0.13, 0.07}).empty());
 }
