@@ -61,9 +61,10 @@ bool beyond_schema(const std::string& message) {
   for (const char* part :
        {"the zero vector", "a later time than", "\"max\" >= \"min\"", "already used at",
         "of this scene, found", "is for obstacles with a mesh", "needs a \"direction\"",
-        "there is no group", "there is no material", "cannot consist of another one", "copies, found", " to include ",
-        "/precompute/", "/precompute: ", "cannot be opened", "cannot be read",
-        "speed of shear waves", "another body than", "time steps, found a duration",
+        "there is no group", "there is no material", "cannot consist of another one",
+        "copies, found", " to include ", "/precompute/", "/precompute: ", "cannot be opened",
+        "cannot be read", "speed of shear waves", "another body than",
+        "time steps, found a duration",
         // what the unit of a string measures
         ", found a number, \"", ", found a length, \"", ", found a quantity in "})
     if (message.find(part) != std::string::npos) return true;
