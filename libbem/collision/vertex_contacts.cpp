@@ -57,7 +57,7 @@ class VertexContacts {
     propose_near();
     for (const Proposal& p : proposals_)
       if (is_needed(p) && faces(a_, vertex_, p.time, p.normal)) accepted_.push_back(p);
-    if (accepted_.empty() && entered_) accept_inside();
+    if (entered_ && !is_held()) accept_inside();
     for (const Proposal& p : accepted_) contacts.push_back(contact(p));
     if (backward_) contacts.back().backward = true;
   }
@@ -108,11 +108,19 @@ class VertexContacts {
     return best;
   }
 
+  /// Does what is accepted know that the vertex ends in the surface?
+  bool is_held() const {
+    return std::any_of(accepted_.begin(), accepted_.end(),
+                       [&](const Proposal& p) { return p.gap_end < -limits_.tolerance; });
+  }
+
   /// A vertex that has entered the surface and ends in it may end above the planes of all triangles
   /// that it could be held by, because they turn in the step: then it is held by what is nearest.
   void accept_inside() {
     const Nearest near = nearest_at(1);
     if (!near.inside || near.distance <= limits_.tolerance) return;
+    const auto is_known = [&](const Proposal& p) { return p.triangle == near.candidate->triangle; };
+    if (std::any_of(accepted_.begin(), accepted_.end(), is_known)) return;
     const NearestPoint& on = near.candidate->end.closest;
     const Vec3 normal = near.normal.normalized();
     backward_ = true;

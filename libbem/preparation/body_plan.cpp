@@ -84,6 +84,12 @@ void Planner::make_body(SimulatedMesh mesh) {
   if (settings().model != ModelKind::rigid) settle_method(surface);
   plan_.geometry = make_geometry(surface, inputs_.material.density);
   plan_.geometry.corner_angle_deg = settings().corner_angle();
+  constexpr std::size_t kMany = 20000;
+  const std::size_t nodes = plan_.geometry.nodes.vertices.size();
+  if (nodes > kMany && settings().model != ModelKind::rigid)
+    plan_.warnings.push_back(inputs_.mesh + ": " + std::to_string(nodes) +
+                             " vertices take hours and much memory; " + name("nodes") +
+                             " simulates a coarser surface that moves the mesh");
 }
 
 void Planner::settle_method(const Surface& surface) {
