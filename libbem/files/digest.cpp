@@ -5,9 +5,11 @@
 #include "files/file_io.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
+#include <fcntl.h>
 #include <xxhash.h>
 
 namespace bem {
@@ -62,6 +64,14 @@ std::string tree_digest(int file, std::uint64_t first, std::uint64_t length,
     XXH128_canonicalFromHash(&digests[b], XXH3_128bits_digest(hasher.state.get()));
   });
   return hexadecimal(XXH3_128bits(digests.data(), digests.size() * sizeof(XXH128_canonical_t)));
+}
+
+std::string file_digest(const std::string& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  if (!file || unknown) throw Error(ErrorCode::resources, path + ": cannot be read");
+  return tree_digest(file.get(), 0, size, path);
 }
 
 std::string digest_of(std::string_view bytes) {

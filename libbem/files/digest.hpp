@@ -17,6 +17,9 @@ inline constexpr std::uint64_t kDigestBlock = std::uint64_t(8) << 20;
 std::string tree_digest(int file, std::uint64_t first, std::uint64_t length,
                         const std::string& path);
 
+/// tree_digest of a whole file. Throws ErrorCode::resources if it cannot be read.
+std::string file_digest(const std::string& path);
+
 /// XXH3-128 digest of some bytes, as 32 hexadecimal digits.
 std::string digest_of(std::string_view bytes);
 

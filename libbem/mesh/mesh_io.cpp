@@ -85,11 +85,10 @@ TriangleMesh read_mesh(const std::string& path) {
 
 NamedRanges read_mesh_groups(const std::string& path) {
   if (lower_extension(path) != ".obj") return {};
-  check_file(path, true);
-  const std::string text = read_text(path, std::numeric_limits<std::size_t>::max());
+  MeshFile file = read_mesh_file(path);
   std::vector<std::size_t> first_triangles;
-  triangulate(parse_obj(text, path), path, CrossingFaces::refuse, &first_triangles);
-  NamedRanges groups = parse_obj_groups(text, path);
+  triangulate(std::move(file.polygons), path, CrossingFaces::refuse, &first_triangles);
+  NamedRanges groups = parse_obj_groups(file.obj, path);
   for (auto& [name, ranges] : groups)
     for (auto& [begin, end] : ranges) {
       begin = first_triangles[begin];

@@ -5,8 +5,7 @@
 #include "scene/named_materials.hpp"
 #include "scene/repeat.hpp"
 #include "scene/scene_parts.hpp"
-
-#include <algorithm>
+#include "scene/selection.hpp"
 
 namespace bem {
 namespace {
@@ -164,13 +163,10 @@ Groups read_groups(const JsonValue& value) {
 }
 
 bool names_groups(const BodySpec& body) {
-  const auto is_group = [](const Selection& s) { return s.kind == Selection::Kind::group; };
-  const auto any = [&](const auto& items) {
-    return std::any_of(items.begin(), items.end(),
-                       [&](const auto& item) { return is_group(item.select); });
-  };
-  return std::any_of(body.fixed.begin(), body.fixed.end(), is_group) || any(body.handles) ||
-         any(body.tractions);
+  bool any = false;
+  for_each_selection(body,
+                     [&](const Selection& s) { any = any || s.kind == Selection::Kind::group; });
+  return any;
 }
 
 /// What the selections of the body call by name: groups of the scene, and those of its mesh file.

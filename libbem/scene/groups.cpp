@@ -1,6 +1,7 @@
 #include "scene/groups.hpp"
 
 #include "base/nearest_name.hpp"
+#include "scene/selection.hpp"
 
 #include <set>
 #include <vector>
@@ -24,9 +25,7 @@ void Groups::resolve(Selection& selection, const std::string& hint) const {
 }
 
 void Groups::resolve(BodySpec& body, const std::string& hint) const {
-  for (Selection& fixed : body.fixed) resolve(fixed, hint);
-  for (HandleSpec& handle : body.handles) resolve(handle.select, hint);
-  for (TractionSpec& traction : body.tractions) resolve(traction.select, hint);
+  for_each_selection(body, [&](Selection& selection) { resolve(selection, hint); });
 }
 
 Error Groups::unknown(const Selection& selection, const std::string& hint) const {

@@ -41,15 +41,12 @@ const char* rule_of(Setting::Kind kind) {
 
 /// Puts the settings in place of their mark.
 void list_settings(std::string& schema) {
-  const std::string mark = "\"settings\"";
   std::string members;
   for (const Setting& setting : precompute_settings())
     if (setting.in_scenes)
       members += (members.empty() ? "" : ",") + std::string("\n        \"") + setting.key() +
                  "\": {\"description\": \"" + setting.help + "\", " + rule_of(setting.kind) + "}";
-  const std::size_t at = schema.find(mark);
-  require(at != std::string::npos, "the schema has the settings");
-  schema.replace(at, mark.size(), "{" + members + "\n      }");
+  replace_mark(schema, "\"settings\"", "{" + members + "\n      }");
 }
 
 std::string with_names(std::string schema) {

@@ -15,6 +15,14 @@ std::vector<int> select_nodes(const BodyGeometry& geometry, const Selection& sel
 /// and facing the normal if there is one. Errors as above.
 std::vector<int> select_triangles(const BodyGeometry& geometry, const Selection& selection);
 
+/// Calls `visit` with every selection of a body; `Body` is BodySpec or const BodySpec.
+template <class Body, class Visit>
+void for_each_selection(Body& body, const Visit& visit) {
+  for (auto& fixed : body.fixed) visit(fixed);
+  for (auto& handle : body.handles) visit(handle.select);
+  for (auto& traction : body.tractions) visit(traction.select);
+}
+
 /// The selection in a text that is another one for every other selection.
 std::string to_text(const Selection& selection);
 

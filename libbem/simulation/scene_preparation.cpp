@@ -3,7 +3,6 @@
 #include "archive/archive_writer.hpp"
 #include "base/error.hpp"
 #include "files/digest.hpp"
-#include "files/file_io.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/surface.hpp"
@@ -22,33 +21,32 @@ namespace {
 
 constexpr SettingStyle kStyle = SettingStyle::key;
 
-std::string digest_of_file(const std::string& path) {
-  std::string bytes;
-  check_io(read_all(path, bytes), path, "cannot be read");
-  return digest_of(bytes);
-}
-
 template <class T>
 std::string digest_of_items(const std::vector<T>& items) {
   return digest_of({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)});
 }
 
-std::string text_of(const TriangleMesh& mesh) {
-  return digest_of_items(mesh.vertices) + " " + digest_of_items(mesh.triangles);
+/// A mesh as it is in its file, and a digest of it.
+struct MeshInput {
+  TriangleMesh mesh;
+  std::string digest;
+};
+
+MeshInput read_input(const std::string& path) {
+  MeshInput input{read_mesh(path), ""};
+  input.digest = digest_of_items(input.mesh.vertices) + " " + digest_of_items(input.mesh.triangles);
+  return input;
 }
 
 /// Numbers of vertices and triangles are those of the mesh file, and mean others, or none, of a
 /// mesh that was made of it.
 void refuse_numbers(const BodySpec& body) {
-  const auto check = [](const Selection& s) {
+  for_each_selection(body, [](const Selection& s) {
     if (s.kind == Selection::Kind::vertices || s.kind == Selection::Kind::triangles)
       throw error_at(s.location,
                      "the mesh was repaired or remeshed, so that its vertices and triangles, and "
                      "groups of them, have no numbers; select by a box, sphere or plane");
-  };
-  for (const Selection& s : body.fixed) check(s);
-  for (const HandleSpec& handle : body.handles) check(handle.select);
-  for (const TractionSpec& traction : body.tractions) check(traction.select);
+  });
 }
 
 /// The steps of prepare_scene().
@@ -74,13 +72,13 @@ class ScenePreparation {
   }
 
  private:
-  const TriangleMesh& mesh_of(const BodySource& source);
+  const MeshInput& input_of(const BodySource& source);
   const SimulatedMesh& simulated(const BodySource& source, const BodyInputs& inputs);
   BodyInputs inputs_of(std::size_t b) const;
   void choose_loads(std::size_t b, BodyInputs& inputs) const;
   bool is_joined(std::size_t b) const;
   void choose_time_step();
-  std::string text_of_all(const BodyInputs& inputs, const TriangleMesh& mesh) const;
+  std::string text_of_all(const BodySource& source, const BodyInputs& inputs);
   void provide(BodySpec& body, BodyInputs& inputs);
   void open(const BodySpec& body, const BodyInputs& inputs);
   BodyPlan plan(const BodySpec& body, const BodyInputs& inputs);
@@ -94,16 +92,16 @@ class ScenePreparation {
   const PreparationOptions& options_;
   std::set<std::string> listed_;                    ///< paths of archives that are missing
   std::vector<BodyInputs> inputs_;                  ///< by body; empty ones without a source
-  std::map<std::string, TriangleMesh> meshes_;      ///< by path
+  std::map<std::string, MeshInput> meshes_;         ///< by path
   std::map<std::string, SimulatedMesh> simulated_;  ///< by path and what is done to it
 };
 
-/// As it is in its file, which is read once.
-const TriangleMesh& ScenePreparation::mesh_of(const BodySource& source) {
+/// Read once.
+const MeshInput& ScenePreparation::input_of(const BodySource& source) {
   const std::string& path = source.mesh.resolved;
   const auto known = meshes_.find(path);
   if (known != meshes_.end()) return known->second;
-  return meshes_.emplace(path, at_place(source.mesh.location, [&] { return read_mesh(path); }))
+  return meshes_.emplace(path, at_place(source.mesh.location, [&] { return read_input(path); }))
       .first->second;
 }
 
@@ -113,7 +111,8 @@ const SimulatedMesh& ScenePreparation::simulated(const BodySource& source,
   const std::string key = source.mesh.resolved + inputs.settings.repair_text(inputs.repair);
   const auto known = simulated_.find(key);
   if (known != simulated_.end()) return known->second;
-  return simulated_.emplace(key, simulated_mesh(mesh_of(source), inputs, kStyle)).first->second;
+  return simulated_.emplace(key, simulated_mesh(input_of(source).mesh, inputs, kStyle))
+      .first->second;
 }
 
 BodyInputs ScenePreparation::inputs_of(std::size_t b) const {
@@ -162,7 +161,7 @@ void ScenePreparation::choose_time_step() {
       return;
     }
     if (inputs_[b].settings.model == ModelKind::rigid) continue;
-    if (!seen.insert(text_of_all(inputs_[b], mesh_of(*body.source))).second) continue;
+    if (!seen.insert(text_of_all(*body.source, inputs_[b])).second) continue;
     times.push_back(at_place_of_input(body.source->mesh.location, [&] {
       return crossing_time(simulated(*body.source, inputs_[b]), inputs_[b]);
     }));
@@ -173,28 +172,27 @@ void ScenePreparation::choose_time_step() {
 }
 
 /// Everything that the bytes of an archive depend on.
-std::string ScenePreparation::text_of_all(const BodyInputs& inputs,
-                                          const TriangleMesh& mesh) const {
+std::string ScenePreparation::text_of_all(const BodySource& source, const BodyInputs& inputs) {
   const Material& m = inputs.material;
   const auto name = [](const std::string& path) {
     return std::filesystem::path(path).filename().string();
   };
   std::string text = options_.program + "\narchive " + std::to_string(kArchiveVersion) + "\nmesh " +
-                     name(inputs.mesh) + " " + text_of(mesh) + " times " +
+                     name(inputs.mesh) + " " + input_of(source).digest + " times " +
                      to_text(inputs.mesh_scale) + "\nmaterial " + name(inputs.material_name) + " " +
                      m.name + " " + to_text(m.density) + " " + to_text(m.shear_modulus) + " " +
                      to_text(m.poisson_ratio) + "\ntime step " + to_text(scene_.time_step) + "\n" +
                      inputs.settings.canonical_text();
   text += inputs.settings.repair_text(inputs.repair);
   if (inputs.settings.measure_growth) text += " --measure-growth";
-  if (inputs.settings.has_load_file()) text += "\nloads " + digest_of_file(inputs.settings.loads);
+  if (inputs.settings.has_load_file()) text += "\nloads " + file_digest(inputs.settings.loads);
   for (const Selection& selection : inputs.loaded) text += "\nloads on " + to_text(selection);
   return text;
 }
 
 void ScenePreparation::provide(BodySpec& body, BodyInputs& inputs) {
   inputs.settings.time_step = scene_.time_step;
-  const std::string path = cache_.path_of(inputs.mesh, text_of_all(inputs, mesh_of(*body.source)));
+  const std::string path = cache_.path_of(inputs.mesh, text_of_all(*body.source, inputs));
   body.archive.resolved = path;
   if (missing_ == MissingArchives::list && !cache_.has(path)) {
     if (listed_.insert(path).second)
@@ -258,7 +256,7 @@ void ScenePreparation::compare(const BodySpec& body) {
   const Archive& archive = source_.open(body.archive);
   std::string difference;
   if (!is_repaired(archive))
-    difference = difference_from_mesh(archive, mesh_of(from), from.mesh_scale);
+    difference = difference_from_mesh(archive, input_of(from).mesh, from.mesh_scale);
   if (difference.empty()) difference = difference_from_material(archive, from.material);
   if (!difference.empty())
     throw Error(ErrorCode::archive,

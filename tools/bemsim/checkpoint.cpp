@@ -9,19 +9,10 @@
 
 #include <filesystem>
 
-#include <fcntl.h>
 #include <nlohmann/json.hpp>
 
 namespace bem {
 namespace {
-
-std::string file_digest(const std::string& path) {
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  std::error_code unknown;
-  const auto size = std::filesystem::file_size(path, unknown);
-  if (!file || unknown) throw Error(ErrorCode::resources, path + ": cannot be read");
-  return tree_digest(file.get(), 0, size, path);
-}
 
 /// The scene's JSON with its keys in a fixed order and the output as the command line has it, and
 /// what tells changes of the files that it includes.

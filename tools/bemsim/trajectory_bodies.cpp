@@ -65,6 +65,13 @@ BodyFrame render_frame(BodyFrame out, const BoundMesh& mesh, const Body& body, b
   return out;
 }
 
+/// Of a render mesh that is the simulated surface: normals alone have to be found for it.
+BodyFrame surface_frame(BodyFrame out, const BoundMesh& mesh, const Body& body, bool tractions) {
+  if (!mesh.mesh()->obj.normals().empty())
+    out.normals = mesh.shape(BodyOutput(body).node_positions()).normals;
+  return simulated_frame(std::move(out), body, tractions);
+}
+
 /// What is on the disk is always finite.
 void check_finite(const Body& body, const BodyFrame& frame, double time) {
   const auto finite = [](const std::vector<Vec3>& vectors) {
@@ -100,11 +107,10 @@ std::vector<BodyFrame> body_frames(const Plan& plan, const Simulation& simulatio
     const PlannedBody& planned = plan.bodies[i];
     const Body& body = simulation.bodies()[i];
     const BodyFrame place = place_of(*planned.spec, body);
-    if (planned.render) {
-      BodyFrame frame = render_frame(place, *planned.render, body, tractions);
-      if (planned.shows_surface) frame = simulated_frame(std::move(frame), body, tractions);
-      add(body, std::move(frame));
-    }
+    if (planned.shows_surface)
+      add(body, surface_frame(place, *planned.render, body, tractions));
+    else if (planned.render)
+      add(body, render_frame(place, *planned.render, body, tractions));
     if (writes_simulated_surface(plan, planned)) add(body, simulated_frame(place, body, tractions));
   }
   return frames;
