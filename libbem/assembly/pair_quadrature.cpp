@@ -98,11 +98,9 @@ Adjacency PairQuadrature::adjacency(int tx, int ty) const {
   return static_cast<Adjacency>(shared);
 }
 
-/// Corners that the triangles share come first.
-PairQuadrature::Part PairQuadrature::touching_part(int tx, int ty, KernelPart kernel,
-                                                   std::vector<PairPoint>& points) const {
+/// Corners that the triangles share come first; which ones these are is set in `part`.
+TouchingTriangles PairQuadrature::touching_pair(int tx, int ty, Part& part) const {
   const Triangle &a = mesh_.triangles[tx], &b = mesh_.triangles[ty];
-  Part part{TriangleCell(corners(tx)), TriangleCell(corners(ty))};
   int shared = 0, rest_x = 3, rest_y = 3;
   for (int i = 0; i < 3; ++i) {
     const auto at = std::find(b.begin(), b.end(), a[i]);
@@ -121,11 +119,12 @@ PairQuadrature::Part PairQuadrature::touching_part(int tx, int ty, KernelPart ke
     pair.x[k] = part.x.corners()[part.corner_x[k]];
     pair.y[k] = part.y.corners()[part.corner_y[k]];
   }
-  const TouchingAccuracy static_accuracy{kStaticAway, kStaticAlong, tolerance_};
-  touching_rule(
-      pair, kernel == KernelPart::static_part ? static_accuracy : dynamic_accuracy(tx, ty), points);
-  part.touching = &points;
-  return part;
+  return pair;
+}
+
+TouchingAccuracy PairQuadrature::touching_accuracy(int tx, int ty, KernelPart kernel) const {
+  if (kernel == KernelPart::dynamic_part) return dynamic_accuracy(tx, ty);
+  return {kStaticAway, kStaticAlong, tolerance_};
 }
 
 std::array<Vec3, 3> PairQuadrature::corners(int triangle) const {
@@ -163,7 +162,10 @@ void PairQuadrature::for_each_part(int tx, int ty, KernelPart kernel,
   };
   if (adjacency(tx, ty) != Adjacency::none) {
     thread_local std::vector<PairPoint> points;  // f does not come back here
-    give(touching_part(tx, ty, kernel, points));
+    Part part{TriangleCell(corners(tx)), TriangleCell(corners(ty))};
+    const TouchingTriangles pair = touching_pair(tx, ty, part);
+    part.touching = &points;
+    touching_rule(pair, touching_accuracy(tx, ty, kernel), points, [&] { give(part); });
     return;
   }
   const Pair whole{TriangleCell(corners(tx)), TriangleCell(corners(ty))};
@@ -192,6 +194,27 @@ void PairQuadrature::for_each_part(int tx, int ty, KernelPart kernel,
       stack.push_back(
           {split_x ? pair.x.half(i) : pair.x, split_x ? pair.y : pair.y.half(i), pair.depth + 1});
   }
+}
+
+std::size_t PairQuadrature::near_point_count(int tx, int ty, KernelPart kernel,
+                                             std::size_t most) const {
+  if (tx > ty) std::swap(tx, ty);
+  if (adjacency(tx, ty) != Adjacency::none) {
+    Part part{TriangleCell(corners(tx)), TriangleCell(corners(ty))};
+    return touching_rule_size(touching_pair(tx, ty, part), touching_accuracy(tx, ty, kernel), most);
+  }
+  struct Enough {};
+  std::size_t count = 0;
+  try {
+    for_each_part(tx, ty, kernel, [&](const Part& part) {
+      const TriangleRule &x = triangle_rules()[part.rule_x], &y = triangle_rules()[part.rule_y];
+      if (part.is_whole() && std::max(x.degree, y.degree) <= 2) return;
+      count += std::size_t(x.size) * y.size;
+      if (count > most) throw Enough();
+    });
+  } catch (const Enough&) {  // parts may be as many as points
+  }
+  return count;
 }
 
 }  // namespace bem

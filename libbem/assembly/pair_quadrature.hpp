@@ -39,6 +39,10 @@ class PairQuadrature {
   void for_each_part(int tx, int ty, KernelPart kernel,
                      const std::function<void(const Part&)>& f) const;
 
+  /// How many points a pair has, 0 if it is far: if rules of degree 2 are enough for the whole
+  /// triangles. A number beyond `most` if they are more.
+  std::size_t near_point_count(int tx, int ty, KernelPart kernel, std::size_t most) const;
+
   /// Calls f(point) for the points x and y of a part by barycentric coordinates in its cells, with
   /// weights that add up to one.
   template <class F>
@@ -102,7 +106,8 @@ class PairQuadrature {
   };
   Adjacency adjacency(int tx, int ty) const;
   TouchingAccuracy dynamic_accuracy(int tx, int ty) const;
-  Part touching_part(int tx, int ty, KernelPart kernel, std::vector<PairPoint>& points) const;
+  TouchingAccuracy touching_accuracy(int tx, int ty, KernelPart kernel) const;
+  TouchingTriangles touching_pair(int tx, int ty, Part& part) const;
   std::optional<std::array<int, 2>> unsplit_rules(int tx, int ty, KernelPart kernel) const;
   std::array<Vec3, 3> corners(int triangle) const;
   int rule_at(double distance, double longest_edge, KernelPart kernel, double wave_number) const {

@@ -58,9 +58,8 @@ void GalerkinSlabs<T>::with_rows(int first, int last, const F& f) {
 
 template <class T>
 int GalerkinSlabs<T>::rows_in_memory() const {
-  return alone_ ? 0
-                : most_rows_in_memory(static_cast<int>(this->model_.nodes()), assembler_.layout(),
-                                      precision_);
+  return most_rows_in_memory(static_cast<int>(this->model_.nodes()), assembler_.layout(),
+                             precision_);
 }
 
 template <class T>

@@ -16,7 +16,6 @@ class GalerkinSlabs : public SlabAssembler<T> {
   GalerkinSlabs(BodyModel& model, AssemblyPrecision precision, MatrixForm form);
 
   void assemble(int first, int last, MatrixSlab<T>& slab) override;
-  void assemble_alone() override { alone_ = true; }
   typename SlabAssembler<T>::Norms estimate_norms() override;
   double row_sum_residual() const override { return 0; }  // rigid translation is exact
   /// Without a history nothing is multiplied but by lag 0.
@@ -42,7 +41,6 @@ class GalerkinSlabs : public SlabAssembler<T> {
 
   AssemblyPrecision precision_;
   MatrixForm form_;
-  bool alone_ = false;
   std::vector<char> known_;  ///< by node: whether its rows are in the body forces
   GalerkinAssembler assembler_;
   GalerkinCombination combination_;

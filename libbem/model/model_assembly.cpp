@@ -6,7 +6,6 @@
 #include "model/sampled_targets.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 namespace bem {
@@ -155,16 +154,6 @@ void assemble_compressed(BodyModel& model, const PrecomputeOptions& given,
                       initial_g.empty() ? nullptr : initial_g[i].get(), options.codec, progress);
 }
 
-/// A model whose rows may be assembled.
-BodyModel empty_model(const BodyGeometry& geometry, const PrecomputeOptions& options) {
-  BodyModel model;
-  model.geometry = geometry;
-  model.discretisation = options.discretisation;
-  model.loads = options.loads;
-  model.loaded_nodes = options.loaded_nodes;
-  return model;
-}
-
 }  // namespace
 
 void assemble_model(BodyModel& model, const PrecomputeOptions& options, const Progress& progress) {
@@ -181,68 +170,6 @@ AssemblyPrecision assembly_precision(const PrecomputeOptions& options) {
   const bool single =
       !options.codec.codec->is_double() && options.discretisation.quadrature_tolerance >= 1e-6;
   return single ? AssemblyPrecision::single : AssemblyPrecision::full;
-}
-
-double seconds_per_row(const BodyGeometry& geometry, const PrecomputeOptions& options) {
-  constexpr int kFewest = 8, kOfThread = 4;
-  constexpr double kShort = 0.5;  // seconds: what the first time allocates matters
-  BodyModel model = empty_model(geometry, options);
-  const auto assembler = make_slab_assembler<float>(model, assembly_precision(options), false);
-  assembler->assemble_alone();
-  MatrixSlab<float> slab;
-  const int n = static_cast<int>(model.nodes()),
-            rows = std::min(n, std::max(kFewest, kOfThread * static_cast<int>(thread_count())));
-  const auto seconds_from = [&](int first) {
-    const auto start = std::chrono::steady_clock::now();
-    assembler->assemble(first, first + rows, slab);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  double seconds = seconds_from((n - rows) / 2);
-  const bool has_others = n >= 2 * rows;  // those that are in memory take no time
-  if (seconds < kShort && has_others) seconds = std::min(seconds, seconds_from(0));
-  return seconds / rows;
-}
-
-StoredEstimate sample_compression(const BodyGeometry& geometry, const PrecomputeOptions& options) {
-  constexpr std::size_t kSamples = 3;
-  constexpr double kOfInverse = 0.7;  // of the bytes of H_0 and G_0
-  BodyModel model = empty_model(geometry, options);
-  PrecomputeOptions iterative = options;
-  iterative.codec = codec_of_body(geometry, options.discretisation.method, options.codec);
-  iterative.inverse = InverseKind::iterative;  // H_0 and G_0 are compressed
-  const std::vector<Slab> all = options.codec.codec->slabs(geometry.nodes.vertices);
-  const std::size_t samples = std::min(kSamples, all.size());
-  std::vector<Slab> slabs;
-  double rows = 0;
-  for (std::size_t i = 0; i < samples; ++i) {
-    slabs.push_back(all[(2 * i + 1) * all.size() / (2 * samples)]);
-    rows += slabs.back().row_end - slabs.back().row_begin;
-  }
-  const auto assembler = make_slab_assembler<float>(model, assembly_precision(options), false);
-  assembler->assemble_alone();
-  auto start = std::chrono::steady_clock::now();
-  AssemblyTargets<float> targets = sampled_targets(*assembler, slabs, model, iterative);
-  if (slabs.size() < all.size()) {  // trials take little of the whole, known slabs save little
-    targets.known.reset();
-    start = std::chrono::steady_clock::now();
-  }
-  assemble_all(*assembler, model, slabs, targets, nullptr);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  take_families(targets, model);
-  double lags = 0, initial = 0, initial_g = 0;
-  for (const auto* family : {model.h.get(), model.g.get(), model.stiffness.get()})
-    if (family) lags += static_cast<double>(family->bytes());
-  for (const auto* families : {&model.initial_h, &model.initial_g})
-    for (const auto& family : *families) initial += static_cast<double>(family->bytes());
-  for (const auto& family : model.initial_g) initial_g += static_cast<double>(family->bytes());
-  const double all_rows = static_cast<double>(model.nodes()) / rows;
-  StoredEstimate out{(lags + initial) * all_rows, (lags + initial) * all_rows, seconds * all_rows};
-  if (options.inverse == InverseKind::dense) {
-    out.bytes = (lags + kOfInverse * initial) * all_rows;
-    out.assembly_bytes = (lags + initial_g) * all_rows;
-  }
-  return out;
 }
 
 }  // namespace bem

@@ -38,9 +38,6 @@ class SlabAssembler {
   /// Rows of nodes [first, last); uses all worker threads. Fills the rows of the model's small
   /// matrices (body forces), too.
   virtual void assemble(int first, int last, MatrixSlab<T>& slab) = 0;
-  /// From now on no rows are assembled along with those that are asked for: of a few slabs only,
-  /// others will not be needed.
-  virtual void assemble_alone() {}
 
   /// Frobenius norms of all matrices of a kind together, estimated from some of their rows.
   struct Norms {

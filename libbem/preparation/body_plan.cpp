@@ -6,12 +6,14 @@
 #include "mesh/mesh_io.hpp"
 #include "mesh/solids.hpp"
 #include "model/defaults.hpp"
+#include "model/memory_estimate.hpp"
 #include "preparation/time_step.hpp"
 #include "repair/repair.hpp"
 #include "scene/groups.hpp"
 #include "scene/selection.hpp"
 #include "scene/selection_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -45,6 +47,7 @@ class Planner {
       choose_history();
     else
       options.discretisation.dt = quasistatic_time_step(plan_.geometry, inputs_.material);
+    count_points();
     return std::move(plan_);
   }
 
@@ -67,6 +70,7 @@ class Planner {
   std::vector<Selection> read_load_file() const;
   double time_step();
   void choose_history();
+  void count_points();
   double history_length() const;
   void check_history();
 
@@ -204,6 +208,24 @@ void Planner::check_history() {
                              " makes it shorter)");
 }
 
+/// Triangles that are close to each other, as in thin walls and slits, take the more points of the
+/// quadrature the longer they are beside the distance.
+void Planner::count_points() {
+  constexpr double kUsual = 3e4, kMany = 10;  // points of a triangle, times as many
+  const bool galerkin = plan_.options.discretisation.is_galerkin();
+  plan_.quadrature = count_quadrature(plan_.geometry.nodes, plan_.options.discretisation);
+  const double times = plan_.quadrature.near_points /
+                       (kUsual * static_cast<double>(plan_.geometry.nodes.triangles.size()));
+  if (!galerkin || times < kMany) return;
+  plan_.warnings.push_back(
+      inputs_.mesh +
+      ": parts of the surface are so close to each other, as in thin walls and "
+      "slits, that the quadrature takes at least " +
+      rounded_text(times, 2) +
+      " times as long as usual; triangles as short as the walls are thick, or "
+      "thicker walls, cure that");
+}
+
 }  // namespace
 
 SimulatedMesh simulated_mesh(const TriangleMesh& file, const BodyInputs& inputs,
@@ -233,6 +255,21 @@ SimulatedMesh simulated_mesh(const TriangleMesh& file, const BodyInputs& inputs,
 
 BodyPlan plan_body(SimulatedMesh mesh, const BodyInputs& inputs, SettingStyle style) {
   return Planner(inputs, style).run(std::move(mesh));
+}
+
+void check_memory(const BodyPlan& plan, double available, SettingStyle style) {
+  const double least = peak_bytes(
+      plan.geometry, plan.options,
+      plan.options.codec.codec->is_sampled() ? 0 : stored_bytes(plan.geometry, plan.options));
+  if (least <= available) return;
+  throw Error(ErrorCode::resources,
+              "not enough memory: at least " + bytes_text(least) + " are needed for " +
+                  count_text(plan.geometry.nodes.vertices.size(), "node") + " and a history of " +
+                  count_text(plan.options.discretisation.history_length, "step") +
+                  ", but there are " + bytes_text(available) + "; use " +
+                  setting_text(style, "codec", "lowrank") + ", " +
+                  setting_text(style, "inverse", "iterative") + ", a coarser mesh (" +
+                  setting_name(style, "nodes") + ") or a larger time step");
 }
 
 double crossing_time(const SimulatedMesh& mesh, const BodyInputs& inputs) {

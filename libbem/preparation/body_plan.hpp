@@ -1,6 +1,7 @@
 #pragma once
 
 #include "archive/provenance.hpp"
+#include "assembly/quadrature_count.hpp"
 #include "model/precompute.hpp"
 #include "preparation/time_step.hpp"
 #include "scene/body_spec.hpp"
@@ -43,14 +44,18 @@ struct BodyPlan {
   PrecomputeSettings settings;  ///< of the inputs, with another discretisation where one is needed
   PrecomputeOptions options;
   double lam = 0;  ///< time steps that a shear wave takes across the body
+  QuadratureCount quadrature;
   std::vector<std::string> warnings, notes;
 };
 
-/// A body for which the default
-/// discretisation is not made gets another one, with a warning; without a time step it gets
-/// automatic_time_step(), with a note. Throws ErrorCode::invalid_input for a mesh that cannot be
-/// used, and ErrorCode::usage for a time step or a history that cannot.
+/// A body for which the default discretisation is not made gets another one, with a warning;
+/// without a time step it gets automatic_time_step(), with a note. Throws ErrorCode::invalid_input
+/// for a mesh that cannot be used, and ErrorCode::usage for a time step or a history that cannot.
 BodyPlan plan_body(SimulatedMesh mesh, const BodyInputs& inputs, SettingStyle style);
+
+/// Throws ErrorCode::resources if the matrices surely take more than `available` bytes while they
+/// are computed.
+void check_memory(const BodyPlan& plan, double available, SettingStyle style);
 
 /// Of the simulated mesh, for automatic_time_step() [s].
 double crossing_time(const SimulatedMesh& mesh, const BodyInputs& inputs);

@@ -107,29 +107,58 @@ struct Box {
 /// Makes the rule of one pair.
 class RuleMaker {
  public:
-  RuleMaker(const TouchingTriangles& pair, const TouchingAccuracy& accuracy,
-            std::vector<PairPoint>& points)
-      : pair_(pair),
-        accuracy_(accuracy),
-        first_(static_cast<int>(pair.adjacency) - 1),
-        points_(points) {}
+  RuleMaker(const TouchingTriangles& pair, const TouchingAccuracy& accuracy)
+      : pair_(pair), accuracy_(accuracy), first_(static_cast<int>(pair.adjacency) - 1) {}
 
-  void make() {
+  using Counts = std::array<int, 3>;
+
+  /// Calls use(region, box, numbers of points) for all parts that have a product rule each, while
+  /// it returns true.
+  template <class Use>
+  void for_each_box(const Use& use) const {
     for (int region = 0; region < region_count(pair_.adjacency); ++region) {
       std::vector<Box> boxes = {Box()};
       while (!boxes.empty()) {
         const Box box = boxes.back();
         boxes.pop_back();
-        const std::array<int, 3> counts = point_counts(region, box);
+        const Counts counts = point_counts(region, box);
         const int most = static_cast<int>(std::max_element(counts.begin() + first_, counts.end()) -
                                           counts.begin());
         if (counts[most] > kMost && box.depth < kDeepestBox) {
           boxes.push_back(box.half(most, 1));
           boxes.push_back(box.half(most, 0));
-        } else {
-          add_points(region, box, counts);
+        } else if (!use(region, box, counts)) {
+          return;
         }
       }
+    }
+  }
+
+  std::size_t size_of(const Counts& counts) const {
+    std::size_t size = accuracy_.away;
+    for (const int n : counts) size *= std::min(n, kMost);
+    return size;
+  }
+
+  void add_points(int region, const Box& box, const Counts& counts,
+                  std::vector<PairPoint>& points) const {
+    constexpr double kProduct = 4;  // one over the product of the areas of two such triangles
+    const GaussRule &away = gauss(accuracy_.away), &ga = gauss(std::min(counts[0], kMost)),
+                    &gb = gauss(std::min(counts[1], kMost)),
+                    &gc = gauss(std::min(counts[2], kMost));
+    const double volume = box.size[0] * box.size[1] * box.size[2];
+    for (std::size_t i = 0; i < away.nodes.size(); ++i) {
+      const double t = away.nodes[i], scale = kProduct * away.weights[i] * volume * t * t * t;
+      for (std::size_t a = 0; a < ga.nodes.size(); ++a)
+        for (std::size_t b = 0; b < gb.nodes.size(); ++b)
+          for (std::size_t c = 0; c < gc.nodes.size(); ++c) {
+            const Places p =
+                places(pair_.adjacency, region, box.at({ga.nodes[a], gb.nodes[b], gc.nodes[c]}));
+            PairPoint& point = points.emplace_back();
+            set(t, p.x, point.x);
+            set(t, p.y, point.y);
+            point.weight = scale * p.weight * ga.weights[a] * gb.weights[b] * gc.weights[c];
+          }
     }
   }
 
@@ -146,7 +175,7 @@ class RuleMaker {
   /// The numbers of Gauss points in a box. The difference v is linear in each direction, and the
   /// zeros of |v|^2 on a line lie on the ellipse about its ends e, f whose half axis, for a line of
   /// length 2, is (|v(e)| + |v(f)|)/|v(e) - v(f)|; the sum of its half axes is rho.
-  std::array<int, 3> point_counts(int region, const Box& box) const {
+  Counts point_counts(int region, const Box& box) const {
     constexpr int kGrid = 3;
     Vec3 v[kGrid][kGrid][kGrid];
     double length[kGrid][kGrid][kGrid];
@@ -169,7 +198,7 @@ class RuleMaker {
         if (i < na && first_ < 2) see(1, i, 0, j, i, 2, j);
         if (first_ < 1) see(0, 0, i, j, 2, i, j);
       }
-    std::array<int, 3> counts = {accuracy_.along, accuracy_.along, 0};
+    Counts counts = {accuracy_.along, accuracy_.along, 0};
     for (int d = first_; d < 3; ++d) {
       const double axis = std::max(least[d], 1.0), rho = axis + std::sqrt(axis * axis - 1);
       const double n = std::log(kErrorScale / accuracy_.tolerance) / (2 * std::log(rho));
@@ -178,40 +207,39 @@ class RuleMaker {
     return counts;
   }
 
-  void add_points(int region, const Box& box, const std::array<int, 3>& counts) {
-    constexpr double kProduct = 4;  // one over the product of the areas of two such triangles
-    const GaussRule &away = gauss(accuracy_.away), &ga = gauss(std::min(counts[0], kMost)),
-                    &gb = gauss(std::min(counts[1], kMost)),
-                    &gc = gauss(std::min(counts[2], kMost));
-    const double volume = box.size[0] * box.size[1] * box.size[2];
-    for (std::size_t i = 0; i < away.nodes.size(); ++i) {
-      const double t = away.nodes[i], scale = kProduct * away.weights[i] * volume * t * t * t;
-      for (std::size_t a = 0; a < ga.nodes.size(); ++a)
-        for (std::size_t b = 0; b < gb.nodes.size(); ++b)
-          for (std::size_t c = 0; c < gc.nodes.size(); ++c) {
-            const Places p =
-                places(pair_.adjacency, region, box.at({ga.nodes[a], gb.nodes[b], gc.nodes[c]}));
-            PairPoint& point = points_.emplace_back();
-            set(t, p.x, point.x);
-            set(t, p.y, point.y);
-            point.weight = scale * p.weight * ga.weights[a] * gb.weights[b] * gc.weights[c];
-          }
-    }
-  }
-
   const TouchingTriangles& pair_;
   const TouchingAccuracy& accuracy_;
   int first_;  ///< direction of (a, b, c) in which |x - y| is not just a factor
-  std::vector<PairPoint>& points_;
 };
 
 }  // namespace
 
 void touching_rule(const TouchingTriangles& pair, const TouchingAccuracy& accuracy,
-                   std::vector<PairPoint>& points) {
+                   std::vector<PairPoint>& points, const std::function<void()>& give) {
+  constexpr std::size_t kTogether = 100000;
   require(pair.adjacency != Adjacency::none, "the triangles touch");
+  const RuleMaker maker(pair, accuracy);
   points.clear();
-  RuleMaker(pair, accuracy, points).make();
+  maker.for_each_box([&](int region, const Box& box, const RuleMaker::Counts& counts) {
+    if (points.size() >= kTogether) {
+      give();
+      points.clear();
+    }
+    maker.add_points(region, box, counts, points);
+    return true;
+  });
+  give();
+}
+
+std::size_t touching_rule_size(const TouchingTriangles& pair, const TouchingAccuracy& accuracy,
+                               std::size_t most) {
+  const RuleMaker maker(pair, accuracy);
+  std::size_t size = 0;
+  maker.for_each_box([&](int, const Box&, const RuleMaker::Counts& counts) {
+    size += maker.size_of(counts);
+    return size <= most;
+  });
+  return size;
 }
 
 }  // namespace bem

@@ -3,6 +3,8 @@
 #include "base/types.hpp"
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace bem {
@@ -37,8 +39,13 @@ struct TouchingAccuracy {
 /// directions that are left (three about a vertex, two about an edge, one in the same triangle) has
 /// as many Gauss points as the nearest zero of |x - y|^2 at a complex coordinate demands; where
 /// these are too many, as beside slender triangles, the direction is halved. Points of which many
-/// have the same x or the same y stand one after another. `points` is overwritten.
+/// have the same x or the same y stand one after another. They come in `points`, which is
+/// overwritten: `give` is called for each hundred thousand of them, and for the rest.
 void touching_rule(const TouchingTriangles& pair, const TouchingAccuracy& accuracy,
-                   std::vector<PairPoint>& points);
+                   std::vector<PairPoint>& points, const std::function<void()>& give);
+
+/// How many points they are; a number beyond `most` if they are more.
+std::size_t touching_rule_size(const TouchingTriangles& pair, const TouchingAccuracy& accuracy,
+                               std::size_t most);
 
 }  // namespace bem

@@ -106,7 +106,7 @@ std::vector<Setting> make_settings() {
   return {
       {"dt", Kind::number, false, "S", "time step [s]; default: the material's \"time_step\"",
        [](Settings& s, Text name, Text text) { s.time_step = positive(name, text); }},
-      {"scheme", Kind::text, true, "NAME", scheme_names() + " (radau2; --model static: bdf1)",
+      {"scheme", Kind::text, true, "NAME", scheme_names() + " (radau2; static models: bdf1)",
        set_scheme},
       {"discretisation", Kind::text, true, "NAME",
        "in space: galerkin, which neither stiffens bodies nor lets motions grow, or collocation, "
@@ -134,7 +134,8 @@ std::vector<Setting> make_settings() {
        "body",
        [](Settings& s, Text name, Text text) { s.history = number_in(name, text, 1, 100000); }},
       {"quadrature-tol", Kind::number, true, "X",
-       "relative error aimed at by the spatial quadrature (1e-6)",
+       "accuracy of the spatial quadrature: with collocation the relative error aimed at; with "
+       "galerkin that of triangles that touch, those apart have up to 3000 times as much (1e-6)",
        [](Settings& s, Text name, Text text) {
          s.quadrature_tolerance = number_in(name, text, 1e-11, 0.1);
        }},
@@ -147,11 +148,11 @@ std::vector<Setting> make_settings() {
          s.codec_tolerance = number_in(name, text, 1e-6, 0.1);
        }},
       {"compression-ratio", Kind::number, true, "R",
-       "with --codec haar, in place of --codec-tol: entries before / coefficients kept",
+       "with codec haar, in place of a tolerance: entries before / coefficients kept",
        [](Settings& s, Text name, Text text) {
          s.compression_ratio = number_in(name, text, 1.0, 1e4);
        }},
-      {"precision", Kind::text, true, "NAME", "with --codec none: float32 or float64 (float32)",
+      {"precision", Kind::text, true, "NAME", "with codec none: float32 or float64 (float32)",
        [](Settings& s, Text name, Text text) { s.precision = named<Precision>(name, text); }},
       {"inverse", Kind::text, true, "NAME",
        "how steps solve with the matrices of lag 0: dense (the stored inverse), iterative (no "
@@ -170,15 +171,15 @@ std::vector<Setting> make_settings() {
        set_damping},
       {"repair", Kind::text, true, "MODE",
        "what happens to a mesh that is no closed surface of one solid: off: it is refused; auto: "
-       "the "
-       "gentlest step that works mends it; wrap: it is wrapped in any case (off, in scenes auto)",
+       "the gentlest step that works mends it; wrap: it is wrapped in any case (off, in scenes "
+       "auto)",
        [](Settings& s, Text name, Text text) { s.repair = named<RepairMode>(name, text); }},
       {"nodes", Kind::integer, true, "N", "remesh to about so many vertices (the mesh as it is)",
        [](Settings& s, Text name, Text text) { s.nodes = number_in(name, text, 12, 10000000); }},
       {"fill-holes", Kind::text, true, "small|all",
-       "with --repair auto: holes that are closed (small)", set_fill_holes},
+       "with repair auto: holes that are closed (small)", set_fill_holes},
       {"thickness", Kind::number, true, "X",
-       "with --repair auto: of sheets, as a part of the size of the mesh (0.02)",
+       "with repair auto: of sheets, as a part of the size of the mesh (0.02)",
        [](Settings& s, Text name, Text text) { s.thickness = number_in(name, text, 1e-6, 0.5); }}};
 }
 

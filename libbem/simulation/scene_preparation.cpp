@@ -6,7 +6,6 @@
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/surface.hpp"
-#include "model/memory_estimate.hpp"
 #include "preparation/archive_match.hpp"
 #include "preparation/time_step.hpp"
 #include "scene/selection.hpp"
@@ -238,14 +237,7 @@ BodyPlan ScenePreparation::plan(const BodySpec& body, const BodyInputs& inputs) 
 
 void ScenePreparation::compute(const BodySpec& body, const BodyInputs& inputs) {
   BodyPlan plan = this->plan(body, inputs);
-  const double peak = inputs.settings.model == ModelKind::rigid
-                          ? 0
-                          : peak_bytes(plan.geometry, plan.options, StoredEstimate());
-  if (options_.memory > 0 && peak > options_.memory)
-    throw Error(ErrorCode::resources,
-                body.source->mesh.written +
-                    ": the matrices need more memory than there is; use a coarser mesh or a larger "
-                    "\"time_step\"");
+  if (options_.memory > 0) check_memory(plan, options_.memory, kStyle);
   const Provenance provenance = provenance_of(inputs, plan, options_.program);
   const BodyModel model = precompute(std::move(plan.geometry), plan.options, options_.progress);
   write_archive(body.archive.resolved, model, provenance, true, options_.progress);

@@ -284,11 +284,32 @@ class Messages(CliCase):
                 self.assertIn(word, done.stdout)
         self.assertEqual(self.files(), INPUTS)
 
-    def test_dry_run_of_short_steps_does_not_wait_for_them(self):
-        done = self.run_tool("sphere.obj", "rubber.json", "--dt", "2e-5", "--dry-run",  # takes seconds, a run hours
-                             "--discretisation", "collocation")
-        self.assertRegex(done.stdout, r"archive size: +less than .* MB")
-        self.assertRegex(done.stdout, r"time: +about [0-9]+ h")
+    def test_dry_run_takes_no_time_where_the_run_takes_long(self):
+        subprocess.run([BEMSHAPE, "icosphere", "--subdivisions", "5", "-o", self.folder / "large.obj"], check=True)
+        for options in [["large.obj", "rubber.json"], ["sphere.obj", "rubber.json", "--dt", "2e-5"]]:
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            done = self.run_tool(*options, "--dry-run")
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            self.assertLess(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 4)
+            self.assertRegex(done.stdout, r"archive size: +about .* [MG]B")
+            self.assertRegex(done.stdout, r"time: +about [0-9]+ (h|min)")
+
+    def test_dry_run_is_right_to_a_factor(self):
+        for options in [[], ["--discretisation", "collocation"], ["--loads", "none"]]:
+            options += ["--force"]
+            size = re.search(r"archive size: +about ([\d.]+) (k|M)B", self.precompute("--dry-run", *options).stdout)
+            self.precompute(*options)
+            ratio = float(size[1]) * {"k": 1e3, "M": 1e6}[size[2]] / os.path.getsize(self.folder / "a.bem")
+            self.assertTrue(0.6 < ratio < 1.6, f"{options}: {ratio}")
+
+    def test_walls_that_are_thin_for_their_triangles(self):
+        def plate(thickness):
+            subprocess.run([BEMSHAPE, "box", "--size", "1", "1", thickness, "--divisions", "6", "6", "1", "-o",
+                            self.folder / "plate.obj"], check=True)
+            return ["plate.obj", "rubber.json", "--dt", "0.01", "--dry-run"]
+        for thickness in "0.004", "0.00001":
+            self.assertRegex(self.run_tool(*plate(thickness)).stderr, "takes at least .* times as long as usual")
+        self.assertNotIn("as usual", self.run_tool(*plate("0.1")).stderr)
 
     def test_peak_memory_is_the_programs_own(self):
         large = bytearray(500_000_000)

@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
 #include "mesh/describe.hpp"
+#include "model/time_estimate.hpp"
 
 #include <filesystem>
 #include <iomanip>
@@ -243,12 +244,11 @@ void print_info(std::ostream& out, const Archive& archive) {
   table.line("digest", archive.user_block().digest, " (checked)");
 }
 
-void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
+void print_plan(std::ostream& out, const Plan& plan) {
   Table table(out);
   const Discretisation& d = plan.body.options.discretisation;
   print_body(table, plan.body.geometry, d.material, plan.body.options.kind);
-  const char* bound = plan.uncompressed ? "less than " : "";  // a sample was too much to compress
-  table.line("archive size", bound, bytes_text(plan.archive_bytes));
+  table.line("archive size", "about ", bytes_text(plan.archive_bytes));
   if (plan.body.options.kind == ModelKind::rigid) return;
   print_scheme(table, d, plan.body.lam);
   if (plan.body.options.kind == ModelKind::dynamic) {
@@ -256,13 +256,14 @@ void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
     table.line("n_max", d.history_length);
     table.line("time steps", time_steps_text(plan));
   }
-  table.line("memory", bound, bytes_text(plan.stored), " of matrices, ", bytes_text(plan.peak),
+  table.line("memory", "about ", bytes_text(plan.stored), " of matrices, ", bytes_text(plan.peak),
              " at most (the machine has ", bytes_text(static_cast<double>(physical_memory())), ")");
+  const TimeEstimate time =
+      estimate_time(plan.body.geometry, plan.body.options, plan.body.quadrature);
   table.line("time", "about ", seconds_text(time.total()), " on ", thread_count(),
-             " threads (assembly ", seconds_text(time.assembly), ", inversion ",
+             " threads (assembly and compression ", seconds_text(time.assembly), ", inversion ",
              seconds_text(time.inversion),
-             time.growth > 0 ? ", growth factor " + seconds_text(time.growth) : "", ", writing ",
-             seconds_text(time.writing), ")");
+             time.growth > 0 ? ", growth factor " + seconds_text(time.growth) : "", ")");
 }
 
 Json stats_json(const BodyModel& model, const std::string& archive, const PhaseTimer& timer,

@@ -17,7 +17,7 @@ nlohmann::ordered_json info_json(const Archive& archive);
 void print_info(std::ostream& out, const Archive& archive);
 
 /// What --dry-run prints.
-void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time);
+void print_plan(std::ostream& out, const Plan& plan);
 
 /// What --stats writes.
 nlohmann::ordered_json stats_json(const BodyModel& model, const std::string& archive,

@@ -90,10 +90,17 @@ class Phases {
 };
 
 int run_dry(const Plan& plan, Log& log) {
-  if (!plan.uncompressed && plan.peak > static_cast<double>(physical_memory()))
+  if (plan.peak > static_cast<double>(physical_memory()))
     log.warning("the machine has not enough memory for this");
-  print_plan(std::cout, plan, estimate_time(plan));
+  print_plan(std::cout, plan);
   return 0;
+}
+
+/// What is certain of the archive's size.
+double least_archive_bytes(const Plan& plan) {
+  const BodyPlan& body = plan.body;
+  const bool estimated = body.options.codec.codec->is_sampled();
+  return estimated ? archive_bytes(body.geometry, body.options, 0) : plan.archive_bytes;
 }
 
 /// Whether the archive is there, made from the same inputs. Throws ErrorCode::usage for a file that
@@ -130,14 +137,14 @@ int run_precompute(const Options& o, Log& log) {
     log.info(o.output + ": up to date");
     return 0;
   }
-  check_memory(plan);
-  check_archive_target(o.output, true, plan.archive_bytes);
+  check_memory(plan.body, static_cast<double>(physical_memory()), SettingStyle::option);
+  check_archive_target(o.output, true, least_archive_bytes(plan));
   std::optional<PendingFile> stats;  // a bad path is noticed before the work
   if (!o.stats.empty()) stats.emplace(o.stats);
   if (o.settings.model != ModelKind::rigid)
     log.info(std::to_string(plan.body.geometry.nodes.vertices.size()) + " nodes, " +
-             history_text(plan.body.options.discretisation.history_length) + ", " +
-             (plan.stored > 0 ? "" : "at least ") + bytes_text(plan.peak) + " of memory");
+             history_text(plan.body.options.discretisation.history_length) + ", " + "about " +
+             bytes_text(plan.peak) + " of memory");
 
   phases.begin("tables");
   const BodyModel model =

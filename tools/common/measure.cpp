@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -24,12 +23,6 @@ double cpu_clock() {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-std::string format(const char* pattern, double value, const char* unit) {
-  char text[64];
-  std::snprintf(text, sizeof text, pattern, value, unit);
-  return text;
 }
 
 }  // namespace
@@ -100,21 +93,6 @@ double PhaseTimer::total_wall_seconds() const {
   double total = 0;
   for (const Phase& p : phases_) total += p.wall_seconds;
   return total;
-}
-
-std::string bytes_text(double bytes) {
-  const char* units[] = {"B", "kB", "MB", "GB", "TB"};
-  int unit = 0;
-  for (; bytes >= 999.5 && unit < 4; ++unit) bytes /= 1000;
-  return format(bytes >= 99.95 || unit == 0 ? "%.0f %s" : "%.3g %s", bytes, units[unit]);
-}
-
-std::string seconds_text(double seconds) {
-  if (seconds < 9.95) return format("%.1f %s", seconds, "s");
-  const auto whole = static_cast<long long>(std::min(seconds, 1e15) + 0.5);
-  if (whole < 60) return std::to_string(whole) + " s";
-  if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
-  return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
 }  // namespace bem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/state_archive.hpp"
+#include "base/text.hpp"
 
 #include <cstddef>
 #include <string>
@@ -40,10 +41,5 @@ class PhaseTimer {
   bool running_ = false;
   double wall_start_ = 0, cpu_start_ = 0;
 };
-
-/// "3.2 GB", "512 MB": decimal units, three digits.
-std::string bytes_text(double bytes);
-/// "0.8 s", "3 min 20 s", "2 h 5 min".
-std::string seconds_text(double seconds);
 
 }  // namespace bem

@@ -42,7 +42,7 @@ TEST_CASE("The size of an archive is foreseen") {
   options.discretisation = model.discretisation;
   options.codec = CodecOptions(*model.codec);
   const double expected =
-      archive_bytes(model.geometry, options, estimate_stored(model.geometry, options).bytes);
+      archive_bytes(model.geometry, options, stored_bytes(model.geometry, options));
   const auto size = static_cast<double>(std::filesystem::file_size(folder / "a.bem"));
   CHECK(std::abs(size - expected) < 0.01 * size);
 }

@@ -26,9 +26,10 @@ TouchingTriangles pair_of_height(Adjacency adjacency, double height) {
 }
 
 std::vector<PairPoint> rule(const TouchingTriangles& pair, const TouchingAccuracy& accuracy) {
-  std::vector<PairPoint> points;
-  touching_rule(pair, accuracy, points);
-  return points;
+  std::vector<PairPoint> some, all;
+  touching_rule(pair, accuracy, some, [&] { all.insert(all.end(), some.begin(), some.end()); });
+  CHECK(touching_rule_size(pair, accuracy, 1u << 30) == all.size());
+  return all;
 }
 
 /// int int 1/|x - y| as a part of the product of the areas.
@@ -108,4 +109,22 @@ TEST_CASE("rules of touching triangles have few points") {
   // halved only towards where the distance is small: as the logarithm of the slenderness
   for (const Adjacency adjacency : kAll)
     CHECK(count(adjacency, 1e-4) < 10 * count(adjacency, 1e-1));
+}
+
+TEST_CASE("rules of many points come in parts, and are counted only so far") {
+  const TouchingTriangles pair = pair_of_height(Adjacency::vertex, 1e-5);
+  std::vector<PairPoint> points;
+  std::size_t parts = 0, all = 0;
+  double weights = 0;
+  touching_rule(pair, {8, 8, 1e-9}, points, [&] {
+    ++parts;
+    all += points.size();
+    for (const PairPoint& p : points) weights += p.weight;
+  });
+  CHECK(parts > 1);
+  CHECK(weights == Approx(1).epsilon(1e-10));
+  CHECK(touching_rule_size(pair, {8, 8, 1e-9}, 1u << 30) == all);
+  const std::size_t some = touching_rule_size(pair, {8, 8, 1e-9}, 1000);
+  CHECK(some > 1000);
+  CHECK(some < all);
 }
