@@ -9,7 +9,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kShrinks = 0.8, kAligned = 0.5, kExplained = 0.9;
+constexpr double kShrinks = 0.8, kShrinksWell = 0.5, kExplained = 0.9;
 constexpr double kLeastOrder = 0.5, kMostOrder = 4, kOrderStep = 0.005;
 
 /// Least squares for u and c with one order.
@@ -61,12 +61,12 @@ bool differences_shrink(const MatrixXd& products) {
   double largest = 0;
   for (Eigen::Index k = 0; k + 2 < n; ++k)
     largest = std::max(largest, norm_of(step(n, k), products));
-  const double size = norm_of(last, products), size_before = norm_of(before, products);
-  if (size > kShrinks * largest) return false;
-  return before.dot(products * last) >= kAligned * size * size_before;
+  const double last_size = norm_of(last, products);
+  if (last_size <= kShrinksWell * largest) return true;
+  return last_size <= kShrinks * largest && before.dot(products * last) >= 0;
 }
 
-std::optional<double> observed_order(const std::vector<double>& sizes, const MatrixXd& products) {
+std::optional<double> order_of_fit(const std::vector<double>& sizes, const MatrixXd& products) {
   if (sizes.size() < 3) return std::nullopt;
   double best = kLeastOrder, least = Fit(sizes, best).scatter(products, true);
   for (double p = kLeastOrder; p <= kMostOrder; p += kOrderStep) {
@@ -82,6 +82,26 @@ std::optional<double> observed_order(const std::vector<double>& sizes, const Mat
   return best;
 }
 
+/// The slope of the distances from a limit over sizes, both as logarithms, without the last run,
+/// whose distance is the limit's own assumption. (Errors of irregular meshes have no common
+/// direction, but a common size.)
+std::optional<double> order_of_distances(const std::vector<double>& sizes, const MatrixXd& products,
+                                         const VectorXd& limit) {
+  const Eigen::Index n = products.rows() - 1;
+  if (n < 3) return std::nullopt;
+  VectorXd x(n), y(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    x[k] = std::log(sizes[static_cast<std::size_t>(k)]);
+    y[k] = std::log(norm_of(limit - VectorXd::Unit(n + 1, k), products));
+  }
+  x.array() -= x.mean();
+  y.array() -= y.mean();
+  const double slope = x.dot(y) / x.squaredNorm();
+  const bool explained = slope * x.dot(y) >= kExplained * y.squaredNorm();
+  if (!explained || !(slope > kLeastOrder && slope < kMostOrder)) return std::nullopt;
+  return slope;
+}
+
 }  // namespace
 
 double norm_of(const VectorXd& weights, const MatrixXd& products) {
@@ -94,9 +114,10 @@ Trend find_trend(const std::vector<double>& sizes, const MatrixXd& products,
   trend.converges = differences_shrink(products);
   trend.limit = VectorXd::Unit(products.rows(), products.rows() - 1);
   if (!trend.converges) return trend;
-  trend.order = observed_order(sizes, products);
-  const double order = std::min(trend.order.value_or(expected_order), expected_order);
-  trend.limit = Fit(sizes, order).limit();
+  trend.limit = Fit(sizes, expected_order).limit();
+  trend.order = order_of_fit(sizes, products);
+  if (!trend.order) trend.order = order_of_distances(sizes, products, trend.limit);
+  if (trend.order && *trend.order < expected_order) trend.limit = Fit(sizes, *trend.order).limit();
   return trend;
 }
 

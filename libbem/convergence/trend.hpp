@@ -18,10 +18,12 @@ namespace bem {
 /// with u and c from least squares, in which the run k has the weight (h_last/h_k)^4, because what
 /// the model leaves out grows with the size (Eca and Hoekstra 2014, for vectors).
 struct Trend {
-  /// Differences between neighbours shrink, to less than 0.8 of the one before, and have nearly one
-  /// direction (cosine at least 0.5). Of two runs alone it cannot be told: true.
+  /// The last difference between neighbours is at most half of the largest one, or at most 0.8 of
+  /// it and not against the one before. (Runs without anything in common have differences of one
+  /// size that go to and fro.) Of two runs alone it cannot be told: true.
   bool converges = false;
-  /// p, if the model explains the runs: 90 % of their scatter, with 0.5 < p < 4.
+  /// p, 0.5 to 4, if the model explains 90 % of the scatter of the runs; else, of four runs or
+  /// more, the power of the sizes that explains as much of their distances from the limit.
   std::optional<double> order;
   /// u = sum_k limit_k u_k with the observed order, but at most the expected one, and with that if
   /// none is observed; sum 1. The last run where nothing converges.

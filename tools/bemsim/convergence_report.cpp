@@ -19,7 +19,7 @@ double relative(double value, const QuantityResult& quantity) {
 }
 
 std::string percent_text(double value) {
-  return rounded_text(100 * value, 2) + " %";
+  return rounded_text(100 * value, value < 0.995 ? 2 : 3) + " %";
 }
 
 std::string seconds_or_dash(const std::optional<double>& seconds) {
@@ -96,12 +96,15 @@ std::string order_text(const Trend& trend) {
 /// What is to be said of one series and one quantity.
 std::string series_text(const std::string& what, const SeriesResult& series,
                         const QuantityResult& quantity, double expected_order) {
+  constexpr double kNothing = 1e-6;
   const Trend& trend = series.trend;
+  if (trend.converges && relative(series.scene_error, quantity) < kNothing)
+    return what + ": no error\n";
   std::string text = what + ": order " + order_text(trend) + ", ";
   if (!trend.converges)
     return text +
-           "no convergence: differences between neighbouring runs do not shrink, or have no common "
-           "direction; these runs are too coarse for the motion, or small causes decide on it, as "
+           "no convergence: differences between neighbouring runs do not shrink, or go to and fro; "
+           "these runs are too coarse for the motion, or small causes decide on it, as "
            "after contacts\n";
   text += "error of the scene " + percent_text(relative(series.scene_error, quantity));
   if (series.runs.size() < 3)
