@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
+#include <fstream>
 
 namespace bem {
 namespace {
@@ -17,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kLocks = ".locks";
+constexpr const char* kTimes = ".times";  // folder of files with processor times [s]
 
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
@@ -71,11 +75,32 @@ bool ArchiveCache::provide(const std::string& path, const std::function<void()>&
     create_folder(folder_ + "/" + kLocks);
     const FileLock lock(folder_ + "/" + kLocks + "/" + fs::path(path).stem().string(), waiting);
     made = !has(path);
-    if (made) make();
+    if (made) {
+      const std::clock_t start = std::clock();
+      make();
+      note_time(path, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    }
   }
   std::error_code error;  // the time of a file of another user stays
   fs::last_write_time(path, fs::file_time_type::clock::now(), error);
   return made;
+}
+
+std::string ArchiveCache::time_file(const std::string& path) const {
+  return folder_ + "/" + kTimes + "/" + fs::path(path).stem().string();
+}
+
+/// A time that cannot be written is not known later.
+void ArchiveCache::note_time(const std::string& path, double seconds) const {
+  std::error_code error;
+  fs::create_directories(folder_ + "/" + kTimes, error);
+  std::ofstream(time_file(path)) << std::lround(1000 * seconds) << " ms\n";
+}
+
+std::optional<double> ArchiveCache::seconds_to_make(const std::string& path) const {
+  long milliseconds = 0;
+  if (!(std::ifstream(time_file(path)) >> milliseconds)) return std::nullopt;
+  return static_cast<double>(milliseconds) / 1000;
 }
 
 std::vector<ArchiveCache::Entry> ArchiveCache::entries() const {
@@ -107,6 +132,8 @@ void ArchiveCache::remove_abandoned() const {
 void ArchiveCache::remove(const std::vector<Entry>& entries) const {
   std::error_code error;
   for (const Entry& e : entries) {
+    std::error_code unknown;
+    fs::remove(time_file(e.name), unknown);
     fs::remove(folder_ + "/" + e.name, error);
     if (error)
       throw Error(ErrorCode::resources,

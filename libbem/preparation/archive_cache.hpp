@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ class ArchiveCache {
   bool provide(const std::string& path, const std::function<void()>& make,
                const std::function<void()>& waiting) const;
 
+  /// Processor time that provide() has spent on making a file [s], if that is known.
+  std::optional<double> seconds_to_make(const std::string& path) const;
+
   struct Entry {
     std::string name;
     double bytes = 0;
@@ -45,6 +49,8 @@ class ArchiveCache {
   std::vector<Entry> remove_beyond(double bytes) const;
 
  private:
+  std::string time_file(const std::string& path) const;
+  void note_time(const std::string& path, double seconds) const;
   void remove_abandoned() const;
   void remove(const std::vector<Entry>& entries) const;
 

@@ -16,6 +16,8 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 constexpr int kTries = 6;
 constexpr double kTolerance = 0.05;  ///< of the number of vertices
 constexpr double kRefused = 0.98;    ///< times the length of edges whose mesh was not accepted
+constexpr double kFar = 0.1;         ///< of the number of vertices, for a try from a finer mesh
+constexpr double kFinerStart = 3;    ///< times the vertices of that
 constexpr double kManyTimes = 8;  ///< a mesh with so many times the vertices is thinned out first
 
 double total_area(const TriangleMesh& mesh) {
@@ -42,26 +44,34 @@ class Remesher {
       start_ = remeshed(edge_length(area_, 4.0 * target.nodes));
   }
 
+  /// On regular meshes all edges are halved at the same length, so that some numbers of vertices
+  /// are out of reach: then a finer mesh is thinned out.
   std::optional<TriangleMesh> run(const std::function<bool(const TriangleMesh&)>& accepts) {
     if (!valid_) return std::nullopt;
-    std::optional<TriangleMesh> best;
+    adjust_length(accepts);
+    if (best_ && error_of(*best_) <= kFar) return best_;
+    start_ = remeshed(edge_length(area_, kFinerStart * target_.nodes));
+    adjust_length(accepts);
+    return best_;
+  }
+
+ private:
+  using Sharp = CgalMesh::Property_map<CgalMesh::Edge_index, bool>;
+
+  void adjust_length(const std::function<bool(const TriangleMesh&)>& accepts) {
     double length = edge_length(area_, target_.nodes);
     for (int i = 0; i < kTries; ++i) {
       check_interruption();
       CgalMesh result = remeshed(length);
       TriangleMesh mesh = from_cgal(result);
       const double count = static_cast<double>(mesh.vertices.size());
-      if (count < 4) return best;
-      if ((!best || error_of(mesh) < error_of(*best)) && accepts(mesh)) best = std::move(mesh);
-      if (best && error_of(*best) <= kTolerance) break;
+      if (count < 4) return;
+      if ((!best_ || error_of(mesh) < error_of(*best_)) && accepts(mesh)) best_ = std::move(mesh);
+      if (best_ && error_of(*best_) <= kTolerance) return;
       const double wrong = std::sqrt(count / target_.nodes);
       length *= std::abs(wrong - 1) < kTolerance / 2 ? kRefused : wrong;
     }
-    return best;
   }
-
- private:
-  using Sharp = CgalMesh::Property_map<CgalMesh::Edge_index, bool>;
 
   static Sharp sharp_edges(CgalMesh& mesh) {
     return mesh.add_property_map<CgalMesh::Edge_index, bool>("e:sharp", false).first;
@@ -89,6 +99,7 @@ class Remesher {
   RemeshTarget target_;
   double area_;
   CgalMesh start_;
+  std::optional<TriangleMesh> best_;  ///< accepted, with the nearest number of vertices
   bool valid_ = false;
 };
 

@@ -8,11 +8,12 @@
 #include <iostream>
 
 namespace bem {
-namespace {
 
 ArchiveCache cache_of(const Options& options) {
   return ArchiveCache(options.cache.empty() ? default_cache_folder() : options.cache);
 }
+
+namespace {
 
 double bytes_of(const std::vector<ArchiveCache::Entry>& entries) {
   double bytes = 0;

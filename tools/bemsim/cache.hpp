@@ -2,11 +2,15 @@
 
 #include "common/cli.hpp"
 #include "options.hpp"
+#include "preparation/archive_cache.hpp"
 #include "simulation/archive_source.hpp"
 
 #include <iosfwd>
 
 namespace bem {
+
+/// That of the command line. Throws ErrorCode::usage and ErrorCode::resources.
+ArchiveCache cache_of(const Options& options);
 
 /// Computes or finds the archives of bodies that the scene describes by mesh and material
 /// (prepare_scene), and says what it does. --check computes none: the result is how many it misses.

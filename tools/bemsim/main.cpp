@@ -6,6 +6,7 @@
 #include "cache.hpp"
 #include "common/cli.hpp"
 #include "common/file_roles.hpp"
+#include "convergence.hpp"
 #include "options.hpp"
 #include "plan.hpp"
 #include "run.hpp"
@@ -37,6 +38,8 @@ void check_files(const Options& options, const bem::Scene* scene) {
   files.writes(options.stats);
   files.writes(options.log_file);
   if (options.action == Options::Action::simulate) files.writes_below(options.output);
+  if (options.action == Options::Action::convergence)
+    for (const std::string& file : bem::convergence_files(options)) files.writes(file);
   files.check();
 }
 
@@ -58,6 +61,8 @@ bem::Scene read_inputs(const Options& options, bem::Log& log) {
 
 int run_scene(const Options& options, bem::Log& log) {
   bem::Scene scene = read_inputs(options, log);
+  if (options.action == Options::Action::convergence)
+    return bem::run_convergence(options, scene, std::cout, log);
   bem::ProgressBar bar(log);
   const auto progress = [&](const std::string& phase, double fraction) {
     bem::check_interrupt();

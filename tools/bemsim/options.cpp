@@ -26,7 +26,8 @@ struct Typed {
   std::vector<std::string> formats;
   bool check = false, print_schema = false, prepare = false, cache_info = false;
   std::string cache_clean;
-  std::optional<int> checkpoint_every;
+  std::optional<int> checkpoint_every, coarser, finer;
+  bool convergence = false;
 };
 
 void add_options(CLI::App& app, Typed& t) {
@@ -73,6 +74,18 @@ void add_options(CLI::App& app, Typed& t) {
                  "keep so many bytes of the cache, last used first (10GB, 500MB, 0), or what has "
                  "been used within some time (30d, 12h), then stop")
       ->type_name("SIZE|AGE");
+  app.option_defaults()->group("Speed against error");
+  app.add_flag(
+      "--convergence", t.convergence,
+      "run the scene on other meshes and with other time steps, print what errors and "
+      "seconds belong together, and write convergence.json and convergence.svg in OUT_DIR");
+  app.add_option(
+         "--coarser", t.coarser,
+         "meshes with 1/2, 1/4, ... of the nodes, and time steps 2, 4, ... times as long (2)")
+      ->type_name("N");
+  app.add_option("--finer", t.finer,
+                 "meshes with 2, 4, ... times the nodes, and time steps of 1/2, 1/4, ... (1)")
+      ->type_name("N");
   app.option_defaults()->group("Without a simulation");
   app.add_flag("--check", t.check,
                "validate the scene and its archives, print what would be done, then stop");
@@ -137,19 +150,42 @@ CacheLimit parse_cache_limit(const std::string& text) {
 /// The one thing that is to be done.
 Options::Action parse_action(const Typed& t) {
   using Action = Options::Action;
-  const std::pair<bool, Action> given[] = {{t.check, Action::check},
-                                           {t.print_schema, Action::print_schema},
-                                           {t.prepare, Action::prepare},
-                                           {t.cache_info, Action::cache_info},
-                                           {!t.cache_clean.empty(), Action::cache_clean}};
+  const std::pair<bool, Action> given[] = {
+      {t.convergence, Action::convergence},   {t.check, Action::check},
+      {t.print_schema, Action::print_schema}, {t.prepare, Action::prepare},
+      {t.cache_info, Action::cache_info},     {!t.cache_clean.empty(), Action::cache_clean}};
   Action action = Action::simulate;
   for (const auto& [is_given, which] : given) {
     if (!is_given) continue;
     if (action != Action::simulate)
-      refuse("use only one of --check, --prepare, --print-schema, --cache-info and --cache-clean");
+      refuse(
+          "use only one of --check, --convergence, --prepare, --print-schema, --cache-info and "
+          "--cache-clean");
     action = which;
   }
   return action;
+}
+
+/// The levels of --convergence, which writes no trajectories.
+LevelRange parse_levels(const Typed& t) {
+  constexpr int kMost = 5;
+  LevelRange levels;
+  levels.coarser = t.coarser.value_or(levels.coarser);
+  levels.finer = t.finer.value_or(levels.finer);
+  if (!t.convergence && (t.coarser || t.finer))
+    refuse("--coarser and --finer belong to --convergence");
+  for (const auto& [name, count] :
+       {std::pair("--coarser", levels.coarser), std::pair("--finer", levels.finer)})
+    if (count < 0 || count > kMost)
+      refuse(std::string(name) + " must be from 0 to " + std::to_string(kMost) + ", not " +
+             std::to_string(count));
+  if (levels.coarser + levels.finer == 0) refuse("--coarser 0 --finer 0 leaves nothing to compare");
+  const Options& o = t.options;
+  if (t.convergence && (!t.formats.empty() || !o.stats.empty() || o.resume || t.checkpoint_every))
+    refuse(
+        "--convergence writes no trajectories: leave --format, --stats, --checkpoint-every and "
+        "--resume away");
+  return levels;
 }
 
 Options checked(Typed& t) {
@@ -164,11 +200,11 @@ Options checked(Typed& t) {
     refuse("--checkpoint-every must be at least 1, not " + std::to_string(*t.checkpoint_every));
   o.checkpoint_every = t.checkpoint_every.value_or(0);
   o.action = parse_action(t);
+  o.levels = parse_levels(t);
   if (o.action == Options::Action::cache_clean) o.cache_limit = parse_cache_limit(t.cache_clean);
   if (!o.needs_scene()) return o;
   if (o.scene.empty()) refuse("give a scene file: bemsim SCENE.json -o OUT_DIR");
-  if (o.action == Options::Action::simulate && o.output.empty())
-    refuse("name the folder for the trajectories: -o OUT_DIR");
+  if (o.writes_output() && o.output.empty()) refuse("name the folder for the output: -o OUT_DIR");
   return o;
 }
 
@@ -179,6 +215,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   CLI::App app("Simulates a scene of deformable bodies and writes their trajectories.", "bemsim");
   set_up_help(app,
               "  bemsim SCENE.json -o OUT_DIR [options]\n"
+              "  bemsim SCENE.json --convergence -o OUT_DIR [--coarser N] [--finer N]\n"
               "  bemsim SCENE.json --check | --prepare\n"
               "  bemsim --cache-info | --cache-clean SIZE|AGE\n");
   add_options(app, typed);

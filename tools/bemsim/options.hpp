@@ -1,5 +1,6 @@
 #pragma once
 
+#include "convergence/study_levels.hpp"
 #include "scene/scene.hpp"
 
 #include <optional>
@@ -16,7 +17,15 @@ struct CacheLimit {
 
 /// The command line of bemsim, checked.
 struct Options {
-  enum class Action { simulate, prepare, check, print_schema, cache_info, cache_clean };
+  enum class Action {
+    simulate,
+    convergence,
+    prepare,
+    check,
+    print_schema,
+    cache_info,
+    cache_clean
+  };
   Action action = Action::simulate;
 
   std::string scene, output;
@@ -32,10 +41,12 @@ struct Options {
   std::string stats, log_file;
   std::string cache;       ///< folder of computed archives; empty: the default one
   CacheLimit cache_limit;  ///< of Action::cache_clean
+  LevelRange levels;       ///< of Action::convergence
 
   bool needs_scene() const {
-    return action == Action::simulate || action == Action::prepare || action == Action::check;
+    return writes_output() || action == Action::prepare || action == Action::check;
   }
+  bool writes_output() const { return action == Action::simulate || action == Action::convergence; }
 };
 
 /// Parses and checks a command line; an empty result means that help or version was printed. Throws

@@ -2,6 +2,7 @@
 #include "support/temporary_folder.hpp"
 
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -58,6 +59,26 @@ TEST_CASE("What is in the cache is not made again, and counts as used", "[cache]
   CHECK(made == 1);
   REQUIRE(cache.entries().size() == 1);
   CHECK(cache.entries()[0].age < 500);
+}
+
+TEST_CASE("The cache knows what its files have cost", "[cache]") {
+  const test::TemporaryFolder folder("cache_times");
+  const ArchiveCache cache(folder.path());
+  const std::string path = cache.path_of("a.obj", "a");
+  CHECK(!cache.seconds_to_make(path));
+  cache.provide(
+      path,
+      [&] {
+        const std::clock_t start = std::clock();
+        while (std::clock() - start < CLOCKS_PER_SEC / 20) continue;
+        write(path, 10);
+      },
+      nullptr);
+  REQUIRE(cache.seconds_to_make(path));
+  CHECK(*cache.seconds_to_make(path) >= 0.05);
+  CHECK(*cache.seconds_to_make(path) < 5);
+  cache.remove_beyond(0);
+  CHECK(!cache.seconds_to_make(path));
 }
 
 TEST_CASE("Of processes that need an archive one makes it", "[cache]") {

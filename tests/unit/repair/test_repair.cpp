@@ -71,6 +71,16 @@ TEST_CASE("parts that cross or lie apart are wrapped to one solid") {
   }
 }
 
+TEST_CASE("a regular mesh has neighbours of every number of nodes") {
+  for (const int nodes : {104, 414, 500}) {
+    RepairOptions options;
+    options.nodes = nodes;
+    const RepairedMesh remeshed = repair_mesh(icosphere(3, 1), options, "ball");
+    CHECK(!remeshed.report.wrapped);
+    CHECK(std::abs(remeshed.mesh.vertices.size() / double(nodes) - 1) <= 0.1);
+  }
+}
+
 TEST_CASE("a mesh is remeshed to a number of nodes") {
   for (const int nodes : {60, 400}) {
     RepairOptions options;
