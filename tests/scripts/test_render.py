@@ -72,6 +72,15 @@ class Obstacles(unittest.TestCase):
         np.testing.assert_allclose(corner[2], [0.5, 1.5, 1], atol=1e-12)  # about (0.5, 0, 0), 90 degrees
         np.testing.assert_allclose(corner[3], [0, 0, 2], atol=1e-12)
 
+    def test_obstacles_of_included_scenes_come_first_from_their_folders(self):
+        (self.folder / "studio").mkdir()
+        (self.folder / "studio/wall.obj").write_text("v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n")
+        (self.folder / "studio/studio.json").write_text(json.dumps({"obstacles": [{"name": "wall", "mesh": "wall.obj"}]}))
+        for include in ("studio/studio.json", ["studio/studio.json"]):
+            path = self.folder / "scene.json"
+            path.write_text(json.dumps({"include": include, "obstacles": [{"name": "plate", "mesh": "plate.obj"}]}))
+            self.assertEqual([body.name for body in obstacles.load(path, np.array([0.0]))], ["wall", "plate"])
+
     def test_what_is_no_scene_is_an_error(self):
         for broken in ({"name": "x", "mesh": "none.obj"}, {"mesh": 3}):
             with self.assertRaises(trajectory.InvalidInput):
