@@ -1,9 +1,11 @@
 #include "base/parallel.hpp"
+#include "mesh/extent.hpp"
 #include "mesh/shapes.hpp"
 #include "output/hdf5_trajectory.hpp"
 #include "output/obj_sequence.hpp"
 #include "render/bound_mesh.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -86,9 +88,29 @@ void render_bind(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(BoundMesh(example().mesh(), example().surface()));
 }
 
+/// How far bound vertices are from where an affine motion takes them, at most, over the size.
+double largest_error(const BoundMesh& bound, const Mat3& gradient) {
+  const auto moved = [&](std::vector<Vec3> points) {
+    for (Vec3& x : points) x = gradient * x + Vec3(1, 2, 3);
+    return points;
+  };
+  const std::vector<Vec3> exact = moved(bound.mesh()->triangles.vertices),
+                          found = bound.shape(moved(example().surface().vertices)).positions;
+  double error = 0;
+  for (std::size_t v = 0; v < exact.size(); ++v)
+    error = std::max(error, (found[v] - exact[v]).norm());
+  return error / diameter(example().surface().vertices);
+}
+
 void render_move(benchmark::State& state) {
   const BoundMesh bound(example().mesh(), example().surface());
   for (auto _ : state) benchmark::DoNotOptimize(bound.shape(example().surface().vertices));
+  Mat3 stretch;
+  stretch << 1.1, 0.1, 0, 0, 0.9, 0.05, 0.1, 0, 1;
+  state.counters["rigid_error"] =
+      largest_error(bound, Eigen::AngleAxisd(2, Vec3(1, -2, 0.5).normalized()).toRotationMatrix());
+  state.counters["linear_error"] = largest_error(bound, stretch);
+  state.counters["distance"] = bound.binding().farthest() / diameter(example().surface().vertices);
 }
 
 template <class Writer>

@@ -21,7 +21,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 
 import numpy as np  # noqa: E402
 
-from rendering import camera, colors, geometry, ground, obstacles, picture, scene, trajectory  # noqa: E402
+from rendering import camera, colors, geometry, ground, obstacles, picture, scene, texture, trajectory  # noqa: E402
 
 SHARP_ANGLE_DEG = 40.0
 TITLES = {"displacement": ("displacement", "m"), "deformation": ("deformation", "m"),
@@ -128,6 +128,7 @@ def parse_arguments(arguments):
     group("--color", choices=("displacement", "deformation", "traction", "area", "body", "none"),
           default="deformation", help="|x - x0|; the same without the best rigid motion; |traction|; growth of the "
           "triangles' areas; one per body; none (deformation)")
+    group("--texture", nargs=2, metavar=("OBJ", "IMAGE"), help="image and texture coordinates of bodies with this mesh")
     group("--range", type=numbers(2), metavar="LO,HI", help="of the colour scale, SI units (from the data)")
     group("--deform-scale", type=float, default=1.0, metavar="S", help="exaggerate the deformation (1)")
     group("--deform-from", choices=("fit", "start"), default="fit",
@@ -209,13 +210,14 @@ class Renderer:
         self.options, self.motion = options, motion
         bodies = motion.bodies
         body_size = float(np.median([np.linalg.norm(np.ptp(b.rest, axis=0)) for b in bodies]))
-        values = [quantities(body, options.color) for body in bodies]
+        textures = texture.of_bodies(options.texture, bodies)
+        values = [None if drawn else quantities(body, options.color) for body, drawn in zip(bodies, textures)]
         self.scale = color_scale(values, options, body_size)
         self.shares = [None if v is None else self.scale.shares(v) for v in values]
         for body in bodies:
             exaggerate(body, options.deform_scale, options.deform_from)
         self.shapes = [scene.Shape(b.faces, *geometry.smoothing_groups(b.rest, b.faces, SHARP_ANGLE_DEG),
-                                   colors.body_color(k) if options.color == "body" else colors.clay())
+                                   colors.body_color(k) if options.color == "body" else colors.clay(), textures[k])
                        for k, b in enumerate(bodies)]
         self.drawn = [*bodies, *surroundings]
         self.shares += [None] * len(surroundings)
@@ -272,9 +274,8 @@ class Renderer:
             note = f"grid {ground.grid_spacing(self.look.ground):g} m"
         if self.options.deform_scale != 1:
             note = f"deformation ×{self.options.deform_scale:g}" + (", " + note if note else "")
-        captions = picture.Captions(size[1])
-        return captions.annotate(pixels, "" if self.options.no_time else time_text(self.motion.times, index), note,
-                                 scale, self.legend)
+        time = "" if self.options.no_time else time_text(self.motion.times, index)
+        return picture.Captions(size[1]).annotate(pixels, time, note, scale, self.legend)
 
 
 def time_text(times, index):
@@ -343,8 +344,7 @@ def write_frames(renderer, options):
 
 
 def write_sheet(renderer, options):
-    times = renderer.motion.times
-    chosen = trajectory.select_frames(times, count=options.sheet_frames)
+    chosen = trajectory.select_frames(renderer.motion.times, count=options.sheet_frames)
     columns = min(options.columns, len(chosen))
     width = min(options.size[0], SHEET_WIDTH // columns)
     size = (width, max(16, round(width * options.size[1] / options.size[0])))

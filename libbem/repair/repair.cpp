@@ -14,7 +14,9 @@
 #include "repair/unit_frame.hpp"
 #include "repair/wrap.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace bem {
 namespace {
@@ -184,7 +186,8 @@ class Repair {
   bool try_nodes(int nodes, double far = 1) {
     const std::optional<TriangleMesh> result =
         remesh(mesh_, {nodes, options_.feature_angle_deg}, [&](const TriangleMesh& mesh) {
-          return check_acceptance(mesh).accepted() && deviation(mesh_, mesh) <= far;
+          return check_acceptance(mesh).accepted() && deviation(mesh_, mesh) <= far &&
+                 !refused_for_thin_triangles(mesh);
         });
     if (!result) return false;
     const double count = static_cast<double>(result->vertices.size());
@@ -215,16 +218,33 @@ class Repair {
            " vertices that is closed and does not cross itself; ask for more");
   }
 
-  /// Edges are kept first where they are sharp, then where they are sharper.
+  bool refused_for_thin_triangles(const TriangleMesh& mesh) {
+    const bool thin = std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+      return height_ratio(mesh, t) < kThinHeightRatio;
+    });
+    thin_triangles_ = thin_triangles_ || thin;
+    return thin && refuse_thin_;
+  }
+
+  /// Edges are kept first where they are sharp, then where they are sharper. Short edges that are
+  /// kept may leave triangles next to nothing, which are accepted if no angle avoids them.
   bool try_angles(int nodes) {
-    const double asked = options_.feature_angle_deg;
-    bool found = false;
-    for (const double angle : {asked, std::max(asked, 80.0), 180.0}) {
-      options_.feature_angle_deg = angle;
-      found = found || try_nodes(nodes);
-    }
+    const double asked = options_.feature_angle_deg, sharper = std::max(asked, 80.0);
+    refuse_thin_ = true;
+    thin_triangles_ = false;
+    bool found = try_angles(nodes, {asked, std::max(asked, 60.0), sharper});
+    refuse_thin_ = false;
+    found = found || (thin_triangles_ && try_angles(nodes, {asked, sharper}));
+    found = found || try_angles(nodes, {180.0});
     options_.feature_angle_deg = asked;
     return found;
+  }
+
+  bool try_angles(int nodes, std::initializer_list<double> angles) {
+    return std::any_of(angles.begin(), angles.end(), [&](double angle) {
+      options_.feature_angle_deg = angle;
+      return try_nodes(nodes);
+    });
   }
 
   /// A wrap at a larger distance, whose thin parts are thicker; with a step in the report.
@@ -251,6 +271,8 @@ class Repair {
   UnitFrame frame_;
   TriangleMesh mesh_;
   RepairedMesh out_;
+  bool refuse_thin_ = false;     ///< whether remeshing does without very thin triangles ...
+  bool thin_triangles_ = false;  ///< ... and whether it met some
 };
 
 }  // namespace

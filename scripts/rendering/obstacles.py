@@ -10,15 +10,23 @@ from .trajectory import Body, InvalidInput
 
 
 def load(path, times):
-    """The mesh obstacles of the scene file as bodies with a position per time; planes are left out."""
+    """The mesh obstacles of the scene file, and of those that it includes, as bodies with a position per time; planes are
+    left out."""
     try:
-        scene = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
-        return [_body(obstacle, pathlib.Path(path).parent, times)
-                for obstacle in scene.get("obstacles", []) if "mesh" in obstacle]
+        return _load(pathlib.Path(path), times)
     except OSError as error:
         raise InvalidInput(f"{error.filename}: {error.strerror}") from None
     except (ValueError, KeyError, TypeError, AttributeError, IndexError):
         raise InvalidInput(f"{path}: not a scene whose obstacles can be drawn (meshes as OBJ files)") from None
+
+
+def _load(path, times):
+    scene = json.loads(path.read_text(encoding="utf-8"))
+    included = scene.get("include", [])
+    bodies = []
+    for name in [included] if isinstance(included, str) else included:
+        bodies += _load(path.parent / name, times)
+    return bodies + [_body(obstacle, path.parent, times) for obstacle in scene.get("obstacles", []) if "mesh" in obstacle]
 
 
 def _body(obstacle, folder, times):

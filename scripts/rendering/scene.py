@@ -6,6 +6,7 @@ import numpy as np
 from . import colors, geometry
 from .ground import Ground, GroundShadow, GroundView
 from .raster import barycentric_coefficients, visible_triangles
+from .texture import Texture
 
 SAMPLES = 2  # per pixel and direction
 SHADOW_MAP = 800
@@ -27,6 +28,7 @@ class Shape:
     groups: np.ndarray
     group_count: int
     color: np.ndarray  # sRGB, used where no values are given
+    texture: Texture | None = None  # instead of the colour
 
 
 @dataclasses.dataclass
@@ -49,7 +51,9 @@ class _Surface:
         self.faces = np.concatenate([s.faces + start for s, start in zip(shapes, starts)])
         self.normals = np.concatenate([geometry.corner_normals(p, s.faces, s.groups, s.group_count)
                                        for s, p in zip(shapes, points)])
-        self.body = np.repeat(np.arange(len(shapes)), [len(s.faces) for s in shapes])
+        counts = [len(s.faces) for s in shapes]
+        self.body = np.repeat(np.arange(len(shapes)), counts)
+        self.first_triangle = np.cumsum([0, *counts])
         self.corners = self.points[self.faces]
         self.shares = np.concatenate([_corner_shares(s.faces, v) for s, v in zip(shapes, shares)])
         self.facing = geometry.face_normals(self.points, self.faces)
@@ -168,6 +172,11 @@ def _base_color(color_map, shapes, surface, triangle, weights):
     share = np.einsum("si,si->s", weights, surface.shares[triangle])
     last = len(color_map) - 1
     mapped = colors.to_linear(color_map)[np.clip(np.nan_to_num(share) * last + 0.5, 0, last).astype(int)]
+    for body, shape in enumerate(shapes):
+        if shape.texture is not None:
+            of_body = np.flatnonzero(surface.body[triangle] == body)
+            corners = shape.texture.coordinates[triangle[of_body] - surface.first_triangle[body]]
+            plain[of_body] = shape.texture.colors(np.einsum("si,sij->sj", weights[of_body], corners))
     return np.where(np.isnan(share)[:, None], plain, mapped)
 
 

@@ -13,7 +13,7 @@ from PIL import Image
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 
-from rendering import camera, colors, geometry, obstacles, raster, trajectory  # noqa: E402
+from rendering import camera, colors, geometry, obstacles, picture, raster, texture, trajectory  # noqa: E402
 
 BOX_FACES = np.array([[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4],
                       [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]])
@@ -72,6 +72,15 @@ class Obstacles(unittest.TestCase):
         np.testing.assert_allclose(corner[2], [0.5, 1.5, 1], atol=1e-12)  # about (0.5, 0, 0), 90 degrees
         np.testing.assert_allclose(corner[3], [0, 0, 2], atol=1e-12)
 
+    def test_obstacles_of_included_scenes_come_first_from_their_folders(self):
+        (self.folder / "studio").mkdir()
+        (self.folder / "studio/wall.obj").write_text("v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n")
+        (self.folder / "studio/studio.json").write_text(json.dumps({"obstacles": [{"name": "wall", "mesh": "wall.obj"}]}))
+        for include in ("studio/studio.json", ["studio/studio.json"]):
+            path = self.folder / "scene.json"
+            path.write_text(json.dumps({"include": include, "obstacles": [{"name": "plate", "mesh": "plate.obj"}]}))
+            self.assertEqual([body.name for body in obstacles.load(path, np.array([0.0]))], ["wall", "plate"])
+
     def test_what_is_no_scene_is_an_error(self):
         for broken in ({"name": "x", "mesh": "none.obj"}, {"mesh": 3}):
             with self.assertRaises(trajectory.InvalidInput):
@@ -88,6 +97,48 @@ class Surfaces(unittest.TestCase):
                 file["bodies/a-simulation"].attrs["surface"] = "simulation"
             drawn = trajectory.load(path, trajectory.select_frames, False).bodies
         self.assertEqual([body.name for body in drawn], ["a", "b", "b-simulation"])
+
+
+class Textures(unittest.TestCase):
+    OBJ = ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 0.9 0\nvt 0.9 0.9\nvt 0 0.9\n"
+           "f 1/1 2/2 3/3 4/4\nf 1/3 2/4 5/1\n")
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.mesh, self.image = (pathlib.Path(folder.name) / name for name in ("m.obj", "i.png"))
+        self.mesh.write_text(self.OBJ)
+        picture.write_png(self.image, np.array([[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 255]]], np.uint8))
+
+    def body(self, faces):
+        return trajectory.Body("b", np.array(faces), None, None, None)
+
+    def load(self, *faces):
+        return texture.of_bodies((self.mesh, self.image), [self.body(f) for f in faces])
+
+    def test_corners_have_the_coordinates_of_their_face(self):
+        plain, textured = self.load([[0, 1, 2]], [[2, 0, 1], [2, 3, 0], [4, 1, 0]])
+        self.assertIsNone(plain)
+        np.testing.assert_array_equal(textured.coordinates, [[[.9, .9], [0, 0], [.9, 0]], [[.9, .9], [0, .9], [0, 0]],
+                                                             [[0, 0], [0, .9], [.9, .9]]])
+
+    def test_images_begin_at_the_upper_left_and_repeat(self):
+        textured, = self.load([[2, 0, 1], [2, 3, 0], [4, 1, 0]])
+        seen = textured.colors(np.array([[0.2, 0.9], [0.7, 1.9], [-0.8, 0.1], [0.9, 0.1]]))
+        np.testing.assert_array_equal(seen, [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]])
+
+    def test_what_does_not_fit_is_an_error(self):
+        for faces in ([[0, 1, 2]], [[2, 0, 1], [2, 3, 0], [3, 1, 0]]):
+            with self.assertRaises(trajectory.InvalidInput):
+                self.load(faces)
+        for text in ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "vt x\n"):
+            self.mesh.write_text(text)
+            with self.assertRaises(trajectory.InvalidInput):
+                self.load([[0, 1, 2]])
+        self.mesh.write_text(self.OBJ)
+        self.image.write_bytes(b"no image")
+        with self.assertRaises(trajectory.InvalidInput):
+            self.load([[0, 1, 2]])
 
 
 class Pictures(unittest.TestCase):

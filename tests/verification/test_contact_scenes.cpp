@@ -19,7 +19,7 @@ namespace {
 /// Penetration allowed at every step, as a part of the smallest body [docs/accuracy/contact.md].
 constexpr double kAllowed = 0.005;
 
-/// What the archives and obstacles of the scenes are here, by file name.
+/// What the bodies and obstacles of the scenes are here, by the file name of their mesh.
 class SceneSource : public MemorySource {
  public:
   explicit SceneSource(double time_step) : time_step_(time_step) {}
@@ -74,7 +74,9 @@ class SceneSource : public MemorySource {
 };
 
 Scene shipped_scene(const std::string& name) {
-  return read_scene(BEM_SCENES "/contact/" + name + ".json");
+  Scene scene = read_scene(BEM_SCENES "/contact/" + name + ".json");
+  for (BodySpec& b : scene.bodies) b.archive = b.source->mesh;
+  return scene;
 }
 
 /// A run of a scene that measures the true penetration of every step.

@@ -93,6 +93,27 @@ TEST_CASE("a mesh is remeshed to a number of nodes") {
   }
 }
 
+TEST_CASE("edges of tiny features are not kept where they leave next to nothing of triangles") {
+  TriangleMesh pimple{{{0, 0, -1}, {0, 0, 4.5e-4}}, {}};  // on a disc above a cone
+  const int n = 12;
+  for (const double radius : {1.0, 4e-4})
+    for (int i = 0; i < n; ++i)
+      pimple.vertices.emplace_back(radius * std::cos(i * kPi / 6), radius * std::sin(i * kPi / 6),
+                                   0);
+  for (int i = 0; i < n; ++i) {
+    const int a = 2 + i, b = 2 + (i + 1) % n;
+    for (const Triangle& t : {Triangle{0, b, a}, Triangle{a, b, b + n}, Triangle{a, b + n, a + n},
+                              Triangle{a + n, b + n, 1}})
+      pimple.triangles.push_back(t);
+  }
+  RepairOptions options;
+  options.nodes = 100;
+  const RepairedMesh remeshed = repair_mesh(pimple, options, "pimple");
+  REQUIRE(is_accepted(remeshed.mesh));
+  for (const Triangle& t : remeshed.mesh.triangles) CHECK(height_ratio(remeshed.mesh, t) > 0.1);
+  CHECK(mass_properties(remeshed.mesh, 1).volume == Approx(1).epsilon(0.1));
+}
+
 TEST_CASE("what cannot be repaired is refused in a sentence") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const TriangleMesh line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
