@@ -2,7 +2,8 @@
 # Runs the contact scenes of scenes/contact and measures them: builds what is missing, makes meshes,
 # simulates, draws. Leaves in out/contact per scene NAME: NAME/trajectory.h5, NAME.stats.json,
 # NAME.measure.json (true penetration, rest places, speeds), NAME.csv (per frame), NAME.png; prints a
-# Markdown table. Archives are kept in out/contact/archives, or in the folder BEM_CACHE. With BEM_BIN=FOLDER the programs there are used and nothing is installed or built.
+# Markdown table. Archives are kept in out/contact/archives, or in the folder BEM_CACHE. With
+# BEM_BIN=FOLDER the programs there are used and nothing is installed or built.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

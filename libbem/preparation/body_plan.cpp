@@ -230,7 +230,8 @@ void Planner::count_points() {
 
 SimulatedMesh simulated_mesh(const TriangleMesh& file, const BodyInputs& inputs,
                              SettingStyle style) {
-  const RepairOptions options = inputs.settings.repair_options(inputs.repair);
+  RepairOptions options = inputs.settings.repair_options(inputs.repair);
+  options.unit = inputs.mesh_scale;
   SimulatedMesh out;
   if (options.mode == RepairMode::off) {
     try {

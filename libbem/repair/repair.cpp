@@ -61,7 +61,9 @@ class Repair {
     out_.report.changed = true;
   }
 
-  std::string metres(double length) const { return rounded_text(frame_.size * length, 3) + " m"; }
+  std::string metres(double length) const {
+    return rounded_text(options_.unit * frame_.size * length, 3) + " m";
+  }
 
   [[noreturn]] void refuse(const std::string& why) const {
     throw Error(ErrorCode::invalid_input, name_ + ": the mesh cannot be repaired: " + why);
@@ -75,7 +77,7 @@ class Repair {
   }
 
   void mend() {
-    Mended mended = bem::mend(mesh_, options_, frame_.size);
+    Mended mended = bem::mend(mesh_, options_, options_.unit * frame_.size);
     if (mended.acceptance.accepted()) {
       for (const std::string& step : mended.steps) tell(step);
       mesh_ = outward(mended.acceptance);

@@ -29,6 +29,7 @@ struct RepairOptions {
   double offset = 0.002;          ///< distance of wraps from the surface; in (0, 0.5]
   std::optional<int> nodes;       ///< remesh to so many vertices, at least 12
   double feature_angle_deg = 40;  ///< sharper edges stay edges when a mesh is remeshed; (0, 180]
+  double unit = 1;                ///< of the mesh's lengths [m], in which the report speaks
 };
 
 /// Throws ErrorCode::usage if a number is out of its range.

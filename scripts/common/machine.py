@@ -4,7 +4,7 @@ import re
 import resource
 import time
 
-BUSY = 0.15  # cores in use by others that make times worthless
+BUSY = 0.15  # cores in use by others that are worth a remark
 
 
 class OtherLoad:
@@ -48,4 +48,5 @@ def load_remark(records):
     others = max(r["cores_of_others"] for r in records)
     if others < BUSY:
         return ""
-    return f" **Preliminary: other programs used up to {others:.1f} cores meanwhile, so these times are too long.**"
+    return (f" Other programs used up to {others:.1f} cores meanwhile; on shared cores and memory CPU seconds are up to "
+            "half as long again.")

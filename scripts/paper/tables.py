@@ -27,9 +27,15 @@ def total(stats):
 
 
 def measured(workspace, name):
-    """What a run of a scene and the archive of its body tell; None if it has not been run."""
+    """What a run of a scene and the archive of its body tell; None if it has not been run. The phases' seconds are CPU
+    seconds: wall seconds, times the part of them in which the processor worked for a run on one thread."""
     stats, info = workspace.load(f"{name}.stats"), workspace.load(f"{SCENES[name].body}.info")
-    return (stats, info) if stats and info else None
+    if not stats or not info:
+        return None
+    if stats["threads"] == 1:
+        for phase in stats["phases"].values():
+            phase["mean_seconds"] *= min(1.0, stats["cpu_seconds"] / stats["wall_seconds"])
+    return stats, info
 
 
 def early_end(stats):
@@ -73,8 +79,8 @@ def table1(workspace, defaults=None):
             "constraints [s]", "correction [s]", "step [s]", "paper / ours"]
     threads = sorted({s["threads"] for s in seen})
     note = "Coarse meshes, nothing to compare with the paper's. " if workspace.small else ""
-    note += (f"Cells with two values: ours / the paper's. Ours: {description()}, bemsim on "
-             f"{' or '.join(map(str, threads))} thread{'s' if threads != [1] else ''}.{load_remark(seen)}")
+    note += (f"Cells with two values: ours / the paper's. Ours: {description()}, CPU seconds "
+             f"of bemsim on {' or '.join(map(str, threads))} thread{'s' if threads != [1] else ''}.{load_remark(seen)}")
     if defaults:
         head += ["defaults: size [GB]", "defaults: step [s]"]
         note += " The last two columns are of the same scenes with the programs' defaults, galerkin and radau2."

@@ -231,8 +231,11 @@ f 4/1 3/2 2/3 1/4\nf 5/1 6/2 7/3 8/4
 
     def test_sheets_are_warned_of(self):
         self.write_mesh("v 0 0 0\nv .2 0 0\nv .2 .2 0\nv 0 .2 0\nf 1 2 3 4\n")
+        self.body["mesh_scale"] = 0.5  # which lengths in messages have, too
         self.body["precompute"]["nodes"] = 40
-        self.assertRegex(self.run_scene().stderr, "warning: .*cube.obj: the mesh is a sheet without an inside: .*thickness")
+        self.body["mesh_scale"] = 0.5  # in which lengths are told
+        self.assertRegex(self.run_scene().stderr,
+                         "warning: .*cube.obj: the mesh is a sheet without an inside: .*thickness of 0.00283 m")
         self.assertEqual(self.lines(self.frame(), "f"), ["f 1 2 3 4"])
 
     def test_nodes(self):
