@@ -143,8 +143,9 @@ class Tables(Folder):
     def workspace(self, load):
         workspace = Workspace(self.folder, ".")
         for name, scene in SCENES.items():
-            phases = {p: {"mean_seconds": 0.01} for p in tables.PHASES}
+            phases = {p: {"mean_seconds": 0.0125} for p in tables.PHASES}  # of which the processor worked for 0.01
             workspace.save(f"{name}.stats", {"phases": phases, "threads": 1, "outcome": "complete", "steps": 9,
+                                             "wall_seconds": 10.0, "cpu_seconds": 8.0,
                                              "cores_of_others": load, "time_step": 0.01,
                                              "bodies": [{"vertices": 7}]})
             workspace.save(f"{scene.body}.info", {"bytes": 2e9, "scheme": {"history_length": 4}})
@@ -152,7 +153,7 @@ class Tables(Folder):
 
     def test_table_1_puts_ours_beside_the_papers(self):
         text = tables.table1(self.workspace(0.05))
-        self.assertNotIn("Preliminary", text)
+        self.assertNotIn("Other programs", text)
         row = next(line for line in text.splitlines() if line.startswith("| torus |"))
         self.assertIn("| 7 | 0.01 | 4 / 32 | 2 / 6.3 | 0.01 / 0.237 | 0.01 / – |", row)
         self.assertTrue(row.endswith("| 0.04 / 0.261 | 7 |"), row)
@@ -173,7 +174,7 @@ class Tables(Folder):
         self.assertIn("| torus (failed after 9 steps) |", tables.table1(workspace))
 
     def test_a_busy_machine_makes_times_preliminary(self):
-        self.assertIn("Preliminary", tables.table1(self.workspace(1.4)))
+        self.assertIn("Other programs", tables.table1(self.workspace(1.4)))
 
     def test_the_document_has_room_for_every_part(self):
         document = (ROOT / "docs/paper.md").read_text()
