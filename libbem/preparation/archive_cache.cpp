@@ -13,6 +13,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 namespace bem {
 namespace {
@@ -42,6 +43,12 @@ std::string readable_part(const std::string& mesh) {
   for (char& c : stem)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
   return stem;
+}
+
+/// Whether the cache has given a file its name: other archives in the folder are not its own.
+bool is_name_of_entry(const std::string& name) {
+  static const std::regex pattern("[A-Za-z0-9_-]*-[0-9a-f]{32}\\.bem");
+  return std::regex_match(name, pattern);
 }
 
 }  // namespace
@@ -107,8 +114,11 @@ std::vector<ArchiveCache::Entry> ArchiveCache::entries() const {
   std::vector<Entry> out;
   std::error_code error;
   const auto now = fs::file_time_type::clock::now();
-  for (const fs::directory_entry& file : fs::directory_iterator(folder_, error)) {
-    if (file.path().extension() != ".bem") continue;
+  const fs::directory_iterator files(folder_, error);
+  if (error)
+    throw Error(ErrorCode::resources, folder_ + ": cannot be read (" + error.message() + ")");
+  for (const fs::directory_entry& file : files) {
+    if (!is_name_of_entry(file.path().filename().string())) continue;
     const std::uintmax_t bytes = file.file_size(error);
     if (error) continue;  // another process has removed it
     const std::chrono::duration<double> age = now - file.last_write_time(error);
@@ -124,7 +134,8 @@ void ArchiveCache::remove_abandoned() const {
   for (const fs::directory_entry& file : fs::directory_iterator(folder_, error)) {
     const std::string name = file.path().filename().string();
     const std::string final_name(TemporaryFile::final_name(name));
-    if (final_name != name) finals.push_back(folder_ + "/" + final_name);
+    if (final_name != name && is_name_of_entry(final_name))
+      finals.push_back(folder_ + "/" + final_name);
   }
   for (const std::string& path : finals) TemporaryFile::remove_abandoned(path);
 }

@@ -49,7 +49,7 @@ class Workspace:
         """Makes the body's archive unless there is one from the same inputs."""
         body = BODIES[name]
         path, note = self.folder / f"{name}.bem", self.folder / f"{name}.made"
-        if body.recode:
+        if body.recode and self.scheme == "bdf1":  # others need more memory for what is not compressed
             source, *options = body.recode
             self.archive(source)
             inputs = [(self.folder / f"{source}.made").read_text(), *options]
@@ -57,7 +57,7 @@ class Workspace:
         else:
             mesh, material = self.mesh(name), SOURCES / f"material-{body.material}.json"
             options = ["--scheme", self._scheme(body), "--discretisation", self.discretisation, "--dt", body.dt,
-                       *self._scale(body), *body.options]
+                       *self._scale(body), *body.options, *body.recode[1:]]
             inputs = [mesh.read_text(), material.read_text(), *options]
             command = ["bemprecomp", mesh, material, "-o", path, "--force", "--stats",
                        self.folder / f"{name}.precompute.json", *options]

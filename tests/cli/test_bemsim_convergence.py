@@ -31,6 +31,13 @@ class Convergence(SimulationCase):
     def result(self):
         return json.loads((self.out / "convergence.json").read_text())
 
+    def test_bodies_start_where_the_scene_places_them(self):
+        self.scene.update(duration=0.04, gravity=[0, -9.81, 0], contact={}, obstacles=[
+            {"name": "floor", "plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}}])
+        self.body.update(place={"on": "floor", "gap": 0.1}, tractions=[])
+        self.study("--coarser", 0)
+        self.assertLess(max(self.result()["all"]["position"]["from_finest"]), 1e-9)  # all of them fall alike
+
     def test_the_runs_and_what_they_say(self):
         done = self.study("--coarser", 1)
         result = self.result()

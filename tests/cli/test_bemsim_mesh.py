@@ -122,9 +122,12 @@ class Cache(MeshCase):
         self.assertIn("1 archive, ", info)
         program("bemsim", "--cache-clean", "30d", "--cache", self.folder / "cache")
         self.assertEqual(len(self.cached()), 1)
+        mine = self.folder / "cache/ball.bem"  # no name that the cache has given
+        mine.write_bytes((self.folder / "cache" / self.cached()[0]).read_bytes())
         self.assertIn("removed 1 archive", program("bemsim", "--cache-clean", "0", "--cache", self.folder / "cache").stdout)
-        self.assertEqual(self.cached(), [])
-        self.assert_error(program("bemsim", "--cache-clean", "much", expect=2), "--cache-clean takes a size")
+        self.assertTrue(mine.exists())
+        for limit in ("much", "10", "infGB", "-1GB"):
+            self.assert_error(program("bemsim", f"--cache-clean={limit}", expect=2), "--cache-clean takes a size with its unit")
 
     def test_the_environment_names_the_cache(self):
         environment = {**os.environ, "BEM_CACHE": str(self.folder / "cache")}

@@ -37,6 +37,14 @@ class MeshRepair(unittest.TestCase):
         self.assertIn("nothing to repair", self.shape("repair", "cube.obj", "-o", "out.obj"))
         self.assertEqual(self.counts("out.obj"), (8, 12))
 
+    def test_other_formats_than_obj_are_not_pretended(self):
+        self.write("cube.obj", SIDES)
+        for command in (["repair", "cube.obj", "-o", "out.stl"], ["split", "cube.obj", "-o", "part-%d.ply"],
+                        ["box", "-o", "out.off"]):
+            self.assertIn("bemshape writes OBJ files", self.shape(*command, code=2))
+        self.assertIn("nodes", self.shape("remesh", "cube.obj", "-o", "out.obj", "--nodes", 0, code=2))
+        self.assertEqual(os.listdir(self.folder), ["cube.obj"])
+
     def test_a_mesh_is_repaired_and_its_steps_are_told(self):
         self.write("cube.obj", [side[::-1] if i == 2 else side for i, side in enumerate(SIDES)] + SIDES[:1])
         said = self.shape("repair", "cube.obj", "-o", "out.obj")

@@ -6,6 +6,7 @@
 #include "mend.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/shapes.hpp"
+#include "output.hpp"
 #include "split.hpp"
 
 #include <cstdint>
@@ -87,7 +88,10 @@ class CommandLine {
         .add_option("-o,--output", options_.output, "OBJ file to write (overwritten if it exists)")
         ->required();
     shape.callback([this, generator] {
-      action_ = [this, generator] { bem::write_obj(options_.output, generator(options_)); };
+      action_ = [this, generator] {
+        bem::check_output_name(options_.output);
+        bem::write_obj(options_.output, generator(options_));
+      };
     });
     return shape;
   }

@@ -4,6 +4,7 @@
 #include "common/command_line.hpp"
 #include "mesh/describe.hpp"
 #include "mesh/mesh_io.hpp"
+#include "output.hpp"
 #include "repair/repair.hpp"
 
 #include <filesystem>
@@ -14,6 +15,7 @@ namespace bem {
 namespace {
 
 void check_output(const MendOptions& o) {
+  check_output_name(o.output);
   std::error_code missing;
   if (std::filesystem::equivalent(o.output, o.input, missing))
     throw Error(ErrorCode::usage, "-o would overwrite the input " + o.input);
@@ -34,7 +36,7 @@ void mend(const MendOptions& o, RepairMode mode, Log& log) {
   RepairOptions options = o.repair;
   options.mode = mode;
   options.fill_all_holes = o.fill_holes == "all";
-  if (o.nodes != 0) options.nodes = o.nodes;
+  if (o.nodes) options.nodes = o.nodes;
   check_output(o);
   const RepairedMesh result = repaired(o, options);
   write_obj(o.output, result.mesh);

@@ -4,6 +4,7 @@
 #include "repair/repair_options.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace CLI {
@@ -17,7 +18,7 @@ struct MendOptions {
   std::string input;
   std::string output;
   std::string fill_holes = "small";
-  int nodes = 0;  ///< 0: as many as result
+  std::optional<int> nodes;  ///< else as many as result
   RepairOptions repair;
 };
 

@@ -5,6 +5,7 @@
 #include "mesh/mesh_io.hpp"
 #include "mesh/solids.hpp"
 #include "mesh/validate.hpp"
+#include "output.hpp"
 #include "repair/connected_parts.hpp"
 
 #include <filesystem>
@@ -15,6 +16,7 @@ namespace {
 
 /// The names of `count` files; one file needs no number.
 std::vector<std::string> file_names(const std::string& pattern, std::size_t count) {
+  check_output_name(pattern);
   const std::size_t place = pattern.find("%d");
   if (place == pattern.npos && count > 1)
     throw Error(ErrorCode::usage, "the mesh has " + std::to_string(count) +

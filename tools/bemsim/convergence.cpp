@@ -97,6 +97,7 @@ class Study {
     if (options_.fps) return std::max(1L, std::lround(1 / (*options_.fps * scene_.time_step)));
     return options_.every.value_or(scene_.output.every);
   }
+  void keep_places(const Scene& placed);
   void announce();
   void run_level(const StudyLevel& level);
   void simulate(Scene scene, ArchiveSource& source, const StudyLevel& level);
@@ -121,6 +122,7 @@ class Study {
   StudyTimes times_;
   std::vector<StudyRun> runs_;
   std::vector<StudyCost> costs_;
+  std::set<std::string> told_;  ///< warnings, which runs may have in common
 };
 
 void Study::choose_levels(const Scene& scene, ArchiveSource& source) {
@@ -144,6 +146,15 @@ void Study::choose_levels(const Scene& scene, ArchiveSource& source) {
   times_ = study_times(steps, every(), times);
   levels_ = study_levels(
       total == 0 ? LevelRange{0, 0} : possible_meshes(options_.levels, least, total), times);
+}
+
+/// Where "place" has put the bodies of the scene they are put on all levels, whatever their meshes:
+/// motions are compared, not places.
+void Study::keep_places(const Scene& placed) {
+  for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+    scene_.bodies[b].position = placed.bodies[b].position;
+    scene_.bodies[b].place.reset();
+  }
 }
 
 void Study::announce() {
@@ -184,8 +195,9 @@ void Study::simulate(Scene scene, ArchiveSource& source, const StudyLevel& level
   options.every = 1;
   options.duration = static_cast<double>(times_.steps()) * scene_.time_step;
   const std::unique_ptr<Plan> plan = make_plan(options, std::move(scene), source);
-  if (runs_.empty())
-    for (const std::string& warning : plan->warnings) log_.warning(warning);
+  if (runs_.empty()) keep_places(plan->scene);
+  for (const std::string& warning : plan->warnings)
+    if (told_.insert(warning).second) log_.warning(warning);
   check_memory(*plan);
   StudyCost cost = cost_of(*plan);
   PhaseTimer timer;

@@ -25,7 +25,7 @@ struct Typed {
   Options options;
   std::vector<std::string> formats;
   bool check = false, print_schema = false, prepare = false, cache_info = false;
-  std::string cache_clean;
+  std::optional<std::string> cache_clean;
   std::optional<int> checkpoint_every, coarser, finer;
   bool convergence = false;
 };
@@ -131,19 +131,20 @@ CacheLimit parse_cache_limit(const std::string& text) {
     double factor;
     bool time;
   };
-  constexpr Unit kUnits[] = {{"", 1, false},     {"B", 1, false},    {"kB", 1e3, false},
-                             {"MB", 1e6, false}, {"GB", 1e9, false}, {"TB", 1e12, false},
-                             {"s", 1, true},     {"min", 60, true},  {"h", 3600, true},
-                             {"d", 86400, true}, {"w", 604800, true}};
+  constexpr Unit kUnits[] = {{"B", 1, false},    {"kB", 1e3, false},  {"MB", 1e6, false},
+                             {"GB", 1e9, false}, {"TB", 1e12, false}, {"s", 1, true},
+                             {"min", 60, true},  {"h", 3600, true},   {"d", 86400, true},
+                             {"w", 604800, true}};
   double value = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, code] = std::from_chars(text.data(), end, value);
   const std::string_view unit(rest + (rest != end && *rest == ' ' ? 1 : 0));
   for (const Unit& u : kUnits)
-    if (code == std::errc() && value >= 0 && unit == u.name)
+    if (code == std::errc() && value >= 0 && std::isfinite(value) && unit == u.name)
       return u.time ? CacheLimit{std::nullopt, value * u.factor}
                     : CacheLimit{value * u.factor, std::nullopt};
-  refuse("--cache-clean takes a size (10GB, 500MB, 0) or an age (30d, 12h), not " +
+  if (code == std::errc() && value == 0 && unit.empty()) return CacheLimit{0.0, std::nullopt};
+  refuse("--cache-clean takes a size with its unit (10GB, 500MB, 0) or an age (30d, 12h), not " +
          in_quotes(text));
 }
 
@@ -153,7 +154,7 @@ Options::Action parse_action(const Typed& t) {
   const std::pair<bool, Action> given[] = {
       {t.convergence, Action::convergence},   {t.check, Action::check},
       {t.print_schema, Action::print_schema}, {t.prepare, Action::prepare},
-      {t.cache_info, Action::cache_info},     {!t.cache_clean.empty(), Action::cache_clean}};
+      {t.cache_info, Action::cache_info},     {t.cache_clean.has_value(), Action::cache_clean}};
   Action action = Action::simulate;
   for (const auto& [is_given, which] : given) {
     if (!is_given) continue;
@@ -201,7 +202,7 @@ Options checked(Typed& t) {
   o.checkpoint_every = t.checkpoint_every.value_or(0);
   o.action = parse_action(t);
   o.levels = parse_levels(t);
-  if (o.action == Options::Action::cache_clean) o.cache_limit = parse_cache_limit(t.cache_clean);
+  if (o.action == Options::Action::cache_clean) o.cache_limit = parse_cache_limit(*t.cache_clean);
   if (!o.needs_scene()) return o;
   if (o.scene.empty()) refuse("give a scene file: bemsim SCENE.json -o OUT_DIR");
   if (o.writes_output() && o.output.empty()) refuse("name the folder for the output: -o OUT_DIR");

@@ -102,26 +102,31 @@ TEST_CASE("Of processes that need an archive one makes it", "[cache]") {
   CHECK(fs::file_size(count) == 1);
 }
 
-TEST_CASE("Cleaning removes what was used longest ago", "[cache]") {
+TEST_CASE("Cleaning removes what was used longest ago, and nothing of others", "[cache]") {
   const test::TemporaryFolder folder("cache_clean");
   const ArchiveCache cache(folder.path());
+  std::vector<std::string> all;
   for (int i = 0; i < 4; ++i) {
-    const std::string path = folder / (std::to_string(i) + ".bem");
+    const std::string path = cache.path_of(std::to_string(i) + ".obj", "inputs");
     write(path, 100);
     set_age(path, 1000 * i + 500);
+    all.push_back(fs::path(path).filename().string());
   }
-  CHECK(names(cache.entries()) == std::vector<std::string>{"0.bem", "1.bem", "2.bem", "3.bem"});
-  CHECK(names(cache.remove_older(3000)) == std::vector<std::string>{"3.bem"});
-  CHECK(names(cache.remove_beyond(250)) == std::vector<std::string>{"2.bem"});
-  CHECK(names(cache.entries()) == std::vector<std::string>{"0.bem", "1.bem"});
+  write(folder / "mine.bem", 100);
+  CHECK(names(cache.entries()) == all);
+  CHECK(names(cache.remove_older(3000)) == std::vector<std::string>{all[3]});
+  CHECK(names(cache.remove_beyond(250)) == std::vector<std::string>{all[2]});
+  CHECK(names(cache.entries()) == std::vector<std::string>{all[0], all[1]});
   cache.remove_beyond(0);
   CHECK(cache.entries().empty());
+  CHECK(fs::exists(folder / "mine.bem"));
 }
 
 TEST_CASE("Cleaning removes what killed processes have left", "[cache]") {
   const test::TemporaryFolder folder("cache_abandoned");
-  const std::string left = folder / "a.bem.partial-0123456789abcdef";
+  const ArchiveCache cache(folder.path());
+  const std::string left = cache.path_of("a.obj", "a") + ".partial-0123456789abcdef";
   write(left, 10);
-  ArchiveCache(folder.path()).remove_beyond(1e9);
+  cache.remove_beyond(1e9);
   CHECK(!fs::exists(left));
 }
