@@ -248,7 +248,8 @@ SimulatedMesh simulated_mesh(const TriangleMesh& file, const BodyInputs& inputs,
   RepairedMesh repaired = repair_mesh(file, options, inputs.mesh);
   out.mesh = std::move(repaired.mesh);
   out.changed = repaired.report.changed;
-  const bool coarse = repaired.report.sheet || repaired.report.wrapped;
+  const RepairReport& report = repaired.report;
+  const bool coarse = report.sheet || report.wrapped || report.other_volume;
   for (const std::string& step : repaired.report.steps)
     (coarse ? out.warnings : out.notes).push_back(inputs.mesh + ": " + step);
   return out;

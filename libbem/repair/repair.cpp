@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "mesh/describe.hpp"
+#include "mesh/mass_properties.hpp"
 #include "mesh/solids.hpp"
 #include "mesh/validate.hpp"
 #include "repair/bars.hpp"
@@ -26,7 +27,9 @@ constexpr int kFewestWrapNodes = 500;     ///< of the remeshed wrap of a small m
 constexpr int kMostWrapNodes = 2000;      ///< ... and of a large one
 constexpr double kWideOffset = 0.006;     ///< of wraps whose thin parts need few vertices
 constexpr std::size_t kMostSolids = 200;  ///< that bars join
-constexpr double kNodeTolerance = 0.1;
+constexpr double kNodeTolerance = 0.1;    ///< of the number of vertices that is asked for ...
+constexpr double kWideTolerance = 0.45;   ///< ... where that would cost edges
+constexpr double kOtherVolume = 0.05;     ///< part of the volume that is worth a warning
 
 class Repair {
  public:
@@ -183,7 +186,7 @@ class Repair {
       if (try_nodes(nodes, options_.alpha)) return;
   }
 
-  /// Whether a mesh of so many vertices, within 10 %, is found that the checks accept and that is
+  /// Whether a mesh of about so many vertices is found that the checks accept and that is
   /// nowhere farther from the surface than `far`.
   bool try_nodes(int nodes, double far = 1) {
     const std::optional<TriangleMesh> result =
@@ -193,20 +196,29 @@ class Repair {
         });
     if (!result) return false;
     const double count = static_cast<double>(result->vertices.size());
-    if (std::abs(count / nodes - 1) > kNodeTolerance) return false;
+    if (std::abs(count / nodes - 1) > node_tolerance_) return false;
     const double moved = distance_between(mesh_, *result);
+    const double more = mass_properties(*result, 1).volume / mass_properties(mesh_, 1).volume - 1;
     mesh_ = *result;
     tell("remeshed it to " + count_text(mesh_.vertices.size(), "vertex") + ", at most " +
-         metres(moved) + " away");
+         metres(moved) + " away" + volume_text(more));
+    if (std::abs(more) > kOtherVolume) out_.report.other_volume = true;
     return true;
+  }
+
+  /// Less than a half per cent is not told.
+  static std::string volume_text(double more) {
+    const long percent = std::lround(100 * std::abs(more));
+    if (percent == 0) return "";
+    return ", with " + std::to_string(percent) + " % " + (more < 0 ? "less" : "more") + " volume";
   }
 
   void remesh_to_nodes() {
     const int nodes = *options_.nodes;
     if (try_angles(nodes)) return;
     const TriangleMesh surface = mesh_;
-    tell("the surface has no mesh of " + std::to_string(nodes) +
-         " vertices that does not cross itself");
+    tell("found no mesh of about " + std::to_string(nodes) +
+         " vertices that is like the surface and does not cross itself");
     const RepairOptions asked = options_;
     for (const double offset : {asked.offset, kWideOffset, 2 * kWideOffset}) {
       if (offset <= asked.offset && out_.report.wrapped) continue;
@@ -228,8 +240,9 @@ class Repair {
     return thin && refuse_thin_;
   }
 
-  /// Edges are kept first where they are sharp, then where they are sharper. Short edges that are
-  /// kept may leave triangles next to nothing, which are accepted if no angle avoids them.
+  /// Edges are kept first where they are sharp, then where they are sharper, then with more or less
+  /// vertices than were asked for. Short edges that are kept may leave triangles next to nothing,
+  /// which are accepted if no angle avoids them.
   bool try_angles(int nodes) {
     const double asked = options_.feature_angle_deg, sharper = std::max(asked, 80.0);
     refuse_thin_ = true;
@@ -237,6 +250,9 @@ class Repair {
     bool found = try_angles(nodes, {asked, std::max(asked, 60.0), sharper});
     refuse_thin_ = false;
     found = found || (thin_triangles_ && try_angles(nodes, {asked, sharper}));
+    node_tolerance_ = kWideTolerance;
+    found = found || try_angles(nodes, {asked, sharper});
+    node_tolerance_ = kNodeTolerance;
     found = found || try_angles(nodes, {180.0});
     options_.feature_angle_deg = asked;
     return found;
@@ -273,6 +289,7 @@ class Repair {
   UnitFrame frame_;
   TriangleMesh mesh_;
   RepairedMesh out_;
+  double node_tolerance_ = kNodeTolerance;
   bool refuse_thin_ = false;     ///< whether remeshing does without very thin triangles ...
   bool thin_triangles_ = false;  ///< ... and whether it met some
 };

@@ -14,8 +14,9 @@ struct RepairReport {
   /// holes of 12 and 30 edges"; empty if the mesh stayed as it was.
   std::vector<std::string> steps;
   bool changed = false;
-  bool sheet = false;    ///< the mesh had no inside and was given a thickness
-  bool wrapped = false;  ///< the surface is a wrap around the mesh
+  bool sheet = false;         ///< the mesh had no inside and was given a thickness
+  bool wrapped = false;       ///< the surface is a wrap around the mesh
+  bool other_volume = false;  ///< remeshing has changed the volume by more than 5 %
 };
 
 struct RepairedMesh {

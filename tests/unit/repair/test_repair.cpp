@@ -93,6 +93,29 @@ TEST_CASE("a mesh is remeshed to a number of nodes") {
   }
 }
 
+TEST_CASE("the edges of a cube are kept at any number of nodes") {
+  for (const int nodes : {20, 30, 40, 50, 60, 100}) {
+    RepairOptions options;
+    options.nodes = nodes;
+    const RepairedMesh found = repair_mesh(box({1, 1, 1}, {1, 1, 1}), options, "cube");
+    INFO(nodes << " nodes: " << found.report.steps.back());
+    CHECK(mass_properties(found.mesh, 1).volume == Approx(1));
+    CHECK(found.mesh.vertices.size() > 0.5 * nodes);
+    CHECK(found.mesh.vertices.size() < 1.5 * nodes);
+  }
+}
+
+TEST_CASE("lost volume is told, and a coarse ball is not wrapped") {
+  RepairOptions options;
+  options.nodes = 60;
+  const RepairedMesh ball = repair_mesh(icosphere(1, 1), options, "ball");
+  CHECK(!ball.report.wrapped);
+  options.nodes = 30;
+  const RepairedMesh coarse = repair_mesh(icosphere(3, 1), options, "ball");
+  CHECK(coarse.report.other_volume);
+  CHECK_THAT(coarse.report.steps.back(), Catch::Contains("% less volume"));
+}
+
 TEST_CASE("edges of tiny features are not kept where they leave next to nothing of triangles") {
   TriangleMesh pimple{{{0, 0, -1}, {0, 0, 4.5e-4}}, {}};  // on a disc above a cone
   const int n = 12;
