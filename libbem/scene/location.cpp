@@ -66,8 +66,8 @@ std::string where(const Location& location) {
   return out;
 }
 
-Error error_at(const Location& location, const std::string& text) {
-  return Error(ErrorCode::invalid_input, where(location) + ": " + text);
+LocatedError error_at(const Location& location, const std::string& text) {
+  return {ErrorCode::invalid_input, location, text};
 }
 
 }  // namespace bem

@@ -21,8 +21,19 @@ std::string pointer_token(const std::string& key);
 /// `FILE:LINE:COLUMN: POINTER`, without the parts that `location` does not have.
 std::string where(const Location& location);
 
+/// An error whose message begins with the place.
+class LocatedError : public Error {
+ public:
+  LocatedError(ErrorCode code, const Location& location, const std::string& text)
+      : Error(code, where(location) + ": " + text), file_(location.file) {}
+  const std::string& file() const { return file_; }
+
+ private:
+  std::string file_;
+};
+
 /// The ErrorCode::invalid_input error with the message `FILE:LINE:COLUMN: POINTER: text`.
-Error error_at(const Location& location, const std::string& text);
+LocatedError error_at(const Location& location, const std::string& text);
 
 /// `text` fit for a terminal: control characters and bytes that are not UTF-8 are escaped, and
 /// what goes beyond `max_bytes` is replaced by "...".
@@ -31,13 +42,17 @@ std::string printable(const std::string& text, std::size_t max_bytes = 200);
 /// printable(text) in double quotes, shortened to what a message can hold.
 std::string in_quotes(const std::string& text);
 
-/// Calls `read` and adds the place to the message of an Error that it throws.
+/// Calls `read` and adds the place to the message of an Error that it throws, unless the error has
+/// a place in the same file, which is nearer to what is wrong.
 template <class Read>
 auto at_place(const Location& location, const Read& read) {
   try {
     return read();
+  } catch (const LocatedError& e) {
+    if (e.file() == location.file) throw;
+    throw LocatedError(e.code(), location, e.what());
   } catch (const Error& e) {
-    throw Error(e.code(), where(location) + ": " + e.what());
+    throw LocatedError(e.code(), location, e.what());
   }
 }
 
@@ -45,12 +60,16 @@ auto at_place(const Location& location, const Read& read) {
 /// ErrorCode::invalid_input.
 template <class Read>
 auto at_place_of_input(const Location& location, const Read& read) {
-  try {
-    return read();
-  } catch (const Error& e) {
-    const bool usage = e.code() == ErrorCode::usage;
-    throw Error(usage ? ErrorCode::invalid_input : e.code(), where(location) + ": " + e.what());
-  }
+  return at_place(location, [&] {
+    try {
+      return read();
+    } catch (const LocatedError&) {
+      throw;
+    } catch (const Error& e) {
+      if (e.code() != ErrorCode::usage) throw;
+      throw Error(ErrorCode::invalid_input, e.what());
+    }
+  });
 }
 
 }  // namespace bem

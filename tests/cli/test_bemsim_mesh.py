@@ -241,6 +241,12 @@ f 4/1 3/2 2/3 1/4\nf 5/1 6/2 7/3 8/4
                          "warning: .*cube.obj: the mesh is a sheet without an inside: .*thickness of 0.00283 m")
         self.assertEqual(self.lines(self.frame(), "f"), ["f 1 2 3 4"])
 
+    def test_a_mistake_has_one_place(self):
+        self.body["fixed"] = [{"vertices": [42000]}]
+        error = self.run_scene(expect=3).stderr
+        self.assertIn("/bodies/0/fixed/0: vertex 42000", error)
+        self.assertEqual(error.count("/bodies/0"), 1, error)
+
     def test_nodes(self):
         self.body["precompute"]["nodes"] = 100
         done = self.run_scene()
