@@ -19,4 +19,8 @@ double largest_symbol(const Scheme& scheme) {
   return largest;
 }
 
+double largest_wave_number(const Discretisation& d) {
+  return largest_symbol(d.scheme) / (d.material.shear_speed() * d.dt);
+}
+
 }  // namespace bem

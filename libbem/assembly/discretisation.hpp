@@ -24,4 +24,7 @@ struct Discretisation {
 /// larger than the principal one.)
 double largest_symbol(const Scheme& scheme);
 
+/// |s|_max/c2 [1/m].
+double largest_wave_number(const Discretisation& discretisation);
+
 }  // namespace bem

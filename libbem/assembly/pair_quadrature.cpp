@@ -37,6 +37,11 @@ std::vector<PairPoint> product_rule(const TriangleRule& x, const TriangleRule& y
   return out;
 }
 
+/// Whether there is a rule, and it is of degree 2 at most.
+bool is_midpoint_rule(int rule) {
+  return rule >= 0 && triangle_rules()[rule].degree <= 2;
+}
+
 }  // namespace
 
 PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, double wave_number)
@@ -67,8 +72,7 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
 
 bool PairQuadrature::midpoints_suffice(double distance, double longest_edge,
                                        KernelPart part) const {
-  const int rule = rule_at(distance, longest_edge, part, wave_number_);
-  return rule >= 0 && triangle_rules()[rule].degree <= 2;
+  return is_midpoint_rule(rule_at(distance, longest_edge, part, wave_number_));
 }
 
 /// Up to which waves are resolved between two triangles that are not far from each other [1/m].
@@ -207,9 +211,8 @@ std::size_t PairQuadrature::near_point_count(int tx, int ty, KernelPart kernel,
   std::size_t count = 0;
   try {
     for_each_part(tx, ty, kernel, [&](const Part& part) {
-      const TriangleRule &x = triangle_rules()[part.rule_x], &y = triangle_rules()[part.rule_y];
-      if (part.is_whole() && std::max(x.degree, y.degree) <= 2) return;
-      count += std::size_t(x.size) * y.size;
+      if (part.is_whole() && is_midpoint_rule(part.rule_x) && is_midpoint_rule(part.rule_y)) return;
+      count += products_[part.rule_x][part.rule_y].size();
       if (count > most) throw Enough();
     });
   } catch (const Enough&) {  // parts may be as many as points

@@ -23,13 +23,6 @@ void operator+=(QuadratureCount& sum, const QuadratureCount& c) {
   sum.static_points += c.static_points;
 }
 
-/// How far a triangle is from an equilateral one, for which this is least.
-double crookedness(const TriangleMesh& mesh, int triangle) {
-  const TriangleCell cell(triangle_corners(mesh, mesh.triangles[triangle]));
-  const double edge = cell.longest_edge();
-  return edge * edge / triangle_area(mesh, mesh.triangles[triangle]);
-}
-
 /// Of the points of one triangle with all triangles.
 QuadratureCount count_of_pairs(const PairQuadrature& quadrature, int tx) {
   double dynamic_points = 0, static_points = 0;
@@ -61,10 +54,11 @@ QuadratureCount count_of_panel(const PanelQuadrature& quadrature, int triangle) 
 /// The sum over all triangles of what `count` gives for one.
 template <class Count>
 QuadratureCount sampled_sum(const TriangleMesh& mesh, const Count& count) {
+  std::vector<double> ratios;
+  for (const Triangle& t : mesh.triangles) ratios.push_back(height_ratio(mesh, t));
   std::vector<int> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return crookedness(mesh, a) > crookedness(mesh, b); });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return ratios[a] < ratios[b]; });
   const std::size_t crooked = std::min(kCrookedest, order.size()), others = order.size() - crooked,
                     some = std::min(kSamples - kCrookedest, others);
   std::vector<QuadratureCount> counts(crooked + some);
@@ -88,8 +82,7 @@ QuadratureCount count_quadrature(const TriangleMesh& mesh, const Discretisation&
     const PairIntegrals pairs(mesh, d);
     return sampled_sum(mesh, [&](int t) { return count_of_pairs(pairs.quadrature(), t); });
   }
-  const double wave_number = largest_symbol(d.scheme) / (d.material.shear_speed() * d.dt);
-  const PanelQuadrature panels(mesh, d.quadrature_tolerance, wave_number);
+  const PanelQuadrature panels(mesh, d.quadrature_tolerance, largest_wave_number(d));
   return sampled_sum(mesh, [&](int t) { return count_of_panel(panels, t); });
 }
 

@@ -19,8 +19,7 @@ RowAssembler::RowAssembler(const TriangleMesh& mesh, double extent, const Discre
              {d.damping.time / d.dt}),
       far_table_(table_.single_precision()),
       scales_(d.material.shear_modulus, d.material.shear_speed(), d.dt),
-      quadrature_(mesh, d.quadrature_tolerance,
-                  largest_symbol(d.scheme) / (d.material.shear_speed() * d.dt)),
+      quadrature_(mesh, d.quadrature_tolerance, largest_wave_number(d)),
       fans_(mesh) {
   require(d.dt > 0 && d.history_length >= 0, "dt and the length of the history are possible");
 }

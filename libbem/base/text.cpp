@@ -24,6 +24,10 @@ std::string rounded_text(double value, int digits) {
   return text_of(value, std::chars_format::general, digits);
 }
 
+std::string percent_text(double share) {
+  return rounded_text(100 * share, share < 0.995 ? 2 : 3) + " %";
+}
+
 std::string count_text(std::size_t count, const std::string& unit) {
   const std::string number = std::to_string(count) + " ";
   if (count == 1) return number + unit;

@@ -12,6 +12,9 @@ std::string to_text(double value);
 /// The same to so many significant digits.
 std::string rounded_text(double value, int digits);
 
+/// "2.8 %", "104 %": of a share of one.
+std::string percent_text(double share);
+
 /// "1 edge", "3 edges": `unit` in the singular.
 std::string count_text(std::size_t count, const std::string& unit);
 

@@ -66,9 +66,11 @@ class Evaluation {
   StudyResult run() const {
     StudyResult out;
     const std::size_t count = runs_[0].motions.size();
-    for (std::size_t b = 0; b < count; ++b) out.bodies.push_back(motion({b}));
-    std::vector<std::size_t> all(count);
-    for (std::size_t b = 0; b < count; ++b) all[b] = b;
+    Bodies all;
+    for (std::size_t b = 0; b < count; ++b) {
+      out.bodies.push_back(motion({b}));
+      all.push_back(b);
+    }
     out.all = motion(all);
     return out;
   }

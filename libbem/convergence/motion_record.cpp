@@ -16,13 +16,6 @@ void append(std::vector<double>& values, const Vec3& v, double factor) {
   for (int k = 0; k < 3; ++k) values.push_back(factor * v[k]);
 }
 
-/// At rest, in the coordinates of the mesh file.
-TriangleMesh simulated_surface(const BodyGeometry& geometry) {
-  TriangleMesh surface = geometry.nodes;
-  for (Vec3& x : surface.vertices) x += geometry.mass.centre;
-  return surface;
-}
-
 }  // namespace
 
 FollowedPoints follow_points(const std::string& mesh_path, double mesh_scale, std::size_t most) {
@@ -73,7 +66,7 @@ MotionRecorder::MotionRecorder(std::vector<std::shared_ptr<const FollowedPoints>
     const BodyModel& model = simulation.bodies()[b].model();
     auto& binding = known[{&model, points_[b].get()}];
     if (!binding)
-      binding = std::make_shared<const SurfaceBinding>(simulated_surface(model.geometry),
+      binding = std::make_shared<const SurfaceBinding>(surface_at_rest(model.geometry),
                                                        *points_[b]->mesh);
     bindings_.push_back(binding);
   }

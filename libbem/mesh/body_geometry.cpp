@@ -30,4 +30,10 @@ BodyGeometry make_geometry(const Surface& surface, double density) {
   return g;
 }
 
+TriangleMesh surface_at_rest(const BodyGeometry& geometry) {
+  TriangleMesh surface = geometry.nodes;
+  for (Vec3& x : surface.vertices) x += geometry.mass.centre;
+  return surface;
+}
+
 }  // namespace bem

@@ -24,6 +24,9 @@ struct BodyGeometry {
 /// O(n log n).
 BodyGeometry make_geometry(const Surface& surface, double density);
 
+/// The nodes' surface in the coordinates of the mesh.
+TriangleMesh surface_at_rest(const BodyGeometry& geometry);
+
 /// Checks a geometry that was read back as make_surface() and make_geometry() check and make one:
 /// its mesh is a closed manifold, nodes and triangles are those of the input, and volume, mass,
 /// inertia and extent are theirs. Throws ErrorCode::invalid_input as make_surface(). Indices are in

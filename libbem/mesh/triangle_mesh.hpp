@@ -41,6 +41,13 @@ inline double triangle_area(const TriangleMesh& mesh, const Triangle& t) {
   return area_vector(mesh, t).norm();
 }
 
+/// Of all triangles [m^2].
+inline double surface_area(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) sum += triangle_area(mesh, t);
+  return sum;
+}
+
 /// Unit normal; not finite for a triangle without area.
 inline Vec3 triangle_normal(const TriangleMesh& mesh, const Triangle& t) {
   const Vec3 v = area_vector(mesh, t);

@@ -9,8 +9,10 @@ namespace bem {
 /// from its ratio, and with a tolerance what they take uncompressed.
 double stored_bytes(const BodyGeometry& geometry, const PrecomputeOptions& options);
 
-/// Bytes of the largest working set of precompute() when the matrices take `stored`. With 0 for a
-/// codec that is sampled: the least that is certain.
+/// What of it is more than an estimate: all, or nothing for a codec that is sampled.
+double certain_bytes(const BodyGeometry& geometry, const PrecomputeOptions& options);
+
+/// Bytes of the largest working set of precompute() when the matrices take `stored`.
 ///
 /// Codec "none": the matrices of all lags, and of lag 0 the complex ones that are factorised.
 /// Compressed: what is stored at the end of the assembly; H_0 of all components, 8 or 16 (3N)^2

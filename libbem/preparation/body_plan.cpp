@@ -260,9 +260,8 @@ BodyPlan plan_body(SimulatedMesh mesh, const BodyInputs& inputs, SettingStyle st
 }
 
 void check_memory(const BodyPlan& plan, double available, SettingStyle style) {
-  const double least = peak_bytes(
-      plan.geometry, plan.options,
-      plan.options.codec.codec->is_sampled() ? 0 : stored_bytes(plan.geometry, plan.options));
+  const double least =
+      peak_bytes(plan.geometry, plan.options, certain_bytes(plan.geometry, plan.options));
   if (least <= available) return;
   throw Error(ErrorCode::resources,
               "not enough memory: at least " + bytes_text(least) + " are needed for " +

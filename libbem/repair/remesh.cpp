@@ -20,12 +20,6 @@ constexpr double kFar = 0.1;         ///< of the number of vertices, for a try f
 constexpr double kFinerStart = 3;    ///< times the vertices of that
 constexpr double kManyTimes = 8;  ///< a mesh with so many times the vertices is thinned out first
 
-double total_area(const TriangleMesh& mesh) {
-  double area = 0;
-  for (const Triangle& t : mesh.triangles) area += triangle_area(mesh, t);
-  return area;
-}
-
 /// Of the equilateral triangles with which so many nodes cover the area.
 double edge_length(double area, double nodes) {
   return std::sqrt(2 * area / (std::sqrt(3.0) * nodes));
@@ -34,7 +28,7 @@ double edge_length(double area, double nodes) {
 class Remesher {
  public:
   Remesher(const TriangleMesh& mesh, const RemeshTarget& target)
-      : target_(target), area_(total_area(mesh)) {
+      : target_(target), area_(surface_area(mesh)) {
     std::optional<CgalMesh> cgal = cgal_mesh(mesh);
     if (!cgal) return;
     start_ = std::move(*cgal);

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <map>
 
 namespace bem {
 namespace {
@@ -183,20 +184,23 @@ class Repair {
     const int wanted =
         std::clamp(static_cast<int>(soup.vertices.size()), kFewestWrapNodes, kMostWrapNodes);
     for (int nodes = wanted; nodes < static_cast<int>(mesh_.vertices.size()); nodes *= 2)
-      if (try_nodes(nodes, options_.alpha)) return;
+      if (take(remeshed(nodes, options_.alpha), nodes, kNodeTolerance)) return;
   }
 
-  /// Whether a mesh of about so many vertices is found that the checks accept and that is
-  /// nowhere farther from the surface than `far`.
-  bool try_nodes(int nodes, double far = 1) {
-    const std::optional<TriangleMesh> result =
-        remesh(mesh_, {nodes, options_.feature_angle_deg}, [&](const TriangleMesh& mesh) {
-          return check_acceptance(mesh).accepted() && deviation(mesh_, mesh) <= far &&
-                 !refused_for_thin_triangles(mesh);
-        });
+  /// About so many vertices, if such a mesh is found that the checks accept and that is nowhere
+  /// farther from the surface than `far`.
+  std::optional<TriangleMesh> remeshed(int nodes, double far = 1) {
+    return remesh(mesh_, {nodes, options_.feature_angle_deg}, [&](const TriangleMesh& mesh) {
+      return check_acceptance(mesh).accepted() && deviation(mesh_, mesh) <= far &&
+             !refused_for_thin_triangles(mesh);
+    });
+  }
+
+  /// Takes such a mesh if it has the number of vertices to a part of it.
+  bool take(const std::optional<TriangleMesh>& result, int nodes, double tolerance) {
     if (!result) return false;
     const double count = static_cast<double>(result->vertices.size());
-    if (std::abs(count / nodes - 1) > node_tolerance_) return false;
+    if (std::abs(count / nodes - 1) > tolerance) return false;
     const double moved = distance_between(mesh_, *result);
     const double more = mass_properties(*result, 1).volume / mass_properties(mesh_, 1).volume - 1;
     mesh_ = *result;
@@ -245,23 +249,30 @@ class Repair {
   /// which are accepted if no angle avoids them.
   bool try_angles(int nodes) {
     const double asked = options_.feature_angle_deg, sharper = std::max(asked, 80.0);
+    by_angle_.clear();
     refuse_thin_ = true;
     thin_triangles_ = false;
     bool found = try_angles(nodes, {asked, std::max(asked, 60.0), sharper});
     refuse_thin_ = false;
-    found = found || (thin_triangles_ && try_angles(nodes, {asked, sharper}));
-    node_tolerance_ = kWideTolerance;
-    found = found || try_angles(nodes, {asked, sharper});
-    node_tolerance_ = kNodeTolerance;
-    found = found || try_angles(nodes, {180.0});
+    if (!found && thin_triangles_) {
+      by_angle_.clear();
+      found = try_angles(nodes, {asked, sharper});
+    }
+    found =
+        found || try_angles(nodes, {asked, sharper}, kWideTolerance) || try_angles(nodes, {180.0});
     options_.feature_angle_deg = asked;
     return found;
   }
 
-  bool try_angles(int nodes, std::initializer_list<double> angles) {
+  bool try_angles(int nodes, std::initializer_list<double> angles,
+                  double tolerance = kNodeTolerance) {
     return std::any_of(angles.begin(), angles.end(), [&](double angle) {
-      options_.feature_angle_deg = angle;
-      return try_nodes(nodes);
+      const auto [result, is_new] = by_angle_.try_emplace(angle);
+      if (is_new) {
+        options_.feature_angle_deg = angle;
+        result->second = remeshed(nodes);
+      }
+      return take(result->second, nodes, tolerance);
     });
   }
 
@@ -289,7 +300,8 @@ class Repair {
   UnitFrame frame_;
   TriangleMesh mesh_;
   RepairedMesh out_;
-  double node_tolerance_ = kNodeTolerance;
+  std::map<double, std::optional<TriangleMesh>>
+      by_angle_;                 ///< what was found for a number of nodes
   bool refuse_thin_ = false;     ///< whether remeshing does without very thin triangles ...
   bool thin_triangles_ = false;  ///< ... and whether it met some
 };

@@ -11,9 +11,9 @@ namespace {
 
 /// The body's surface in world axes, relative to the origin of its mesh.
 TriangleMesh turned_surface(const BodySpec& body, const BodyGeometry& geometry) {
-  TriangleMesh out = geometry.nodes;
+  TriangleMesh out = surface_at_rest(geometry);
   const Mat3 rotation = body.rotation.matrix();
-  for (Vec3& x : out.vertices) x = rotation * (x + geometry.mass.centre);
+  for (Vec3& x : out.vertices) x = rotation * x;
   return out;
 }
 

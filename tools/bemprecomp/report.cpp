@@ -5,7 +5,6 @@
 #include "base/parallel.hpp"
 #include "common/cli.hpp"
 #include "mesh/describe.hpp"
-#include "model/time_estimate.hpp"
 
 #include <filesystem>
 #include <iomanip>
@@ -111,11 +110,6 @@ class Table {
  private:
   std::ostream& out_;
 };
-
-/// "2.8 %", "104 %".
-std::string percent_text(double share) {
-  return rounded_text(100 * share, share < 1 ? 2 : 3) + " %";
-}
 
 void print_body(Table& table, const BodyGeometry& g, const Material& m, ModelKind kind) {
   table.line("mesh", g.input.vertices.size(), " vertices, ", g.input.triangles.size(),
@@ -244,7 +238,7 @@ void print_info(std::ostream& out, const Archive& archive) {
   table.line("digest", archive.user_block().digest, " (checked)");
 }
 
-void print_plan(std::ostream& out, const Plan& plan) {
+void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time) {
   Table table(out);
   const Discretisation& d = plan.body.options.discretisation;
   print_body(table, plan.body.geometry, d.material, plan.body.options.kind);
@@ -258,8 +252,6 @@ void print_plan(std::ostream& out, const Plan& plan) {
   }
   table.line("memory", "about ", bytes_text(plan.stored), " of matrices, ", bytes_text(plan.peak),
              " at most (the machine has ", bytes_text(static_cast<double>(physical_memory())), ")");
-  const TimeEstimate time =
-      estimate_time(plan.body.geometry, plan.body.options, plan.body.quadrature);
   table.line("time", "about ", seconds_text(time.total()), " on ", thread_count(),
              " threads (assembly and compression ", seconds_text(time.assembly), ", inversion ",
              seconds_text(time.inversion),

@@ -2,6 +2,7 @@
 
 #include "archive/archive_reader.hpp"
 #include "common/measure.hpp"
+#include "model/time_estimate.hpp"
 #include "plan.hpp"
 
 #include <iosfwd>
@@ -17,7 +18,7 @@ nlohmann::ordered_json info_json(const Archive& archive);
 void print_info(std::ostream& out, const Archive& archive);
 
 /// What --dry-run prints.
-void print_plan(std::ostream& out, const Plan& plan);
+void print_plan(std::ostream& out, const Plan& plan, const TimeEstimate& time);
 
 /// What --stats writes.
 nlohmann::ordered_json stats_json(const BodyModel& model, const std::string& archive,

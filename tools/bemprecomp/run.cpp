@@ -6,6 +6,7 @@
 #include "files/pending_file.hpp"
 #include "mesh/describe.hpp"
 #include "model/growth.hpp"
+#include "model/memory_estimate.hpp"
 #include "preparation/archive_match.hpp"
 #include "report.hpp"
 
@@ -92,15 +93,9 @@ class Phases {
 int run_dry(const Plan& plan, Log& log) {
   if (plan.peak > static_cast<double>(physical_memory()))
     log.warning("the machine has not enough memory for this");
-  print_plan(std::cout, plan);
+  print_plan(std::cout, plan,
+             estimate_time(plan.body.geometry, plan.body.options, plan.body.quadrature));
   return 0;
-}
-
-/// What is certain of the archive's size.
-double least_archive_bytes(const Plan& plan) {
-  const BodyPlan& body = plan.body;
-  const bool estimated = body.options.codec.codec->is_sampled();
-  return estimated ? archive_bytes(body.geometry, body.options, 0) : plan.archive_bytes;
 }
 
 /// Whether the archive is there, made from the same inputs. Throws ErrorCode::usage for a file that
@@ -138,7 +133,10 @@ int run_precompute(const Options& o, Log& log) {
     return 0;
   }
   check_memory(plan.body, static_cast<double>(physical_memory()), SettingStyle::option);
-  check_archive_target(o.output, true, least_archive_bytes(plan));
+  const BodyGeometry& geometry = plan.body.geometry;
+  const PrecomputeOptions& options = plan.body.options;
+  check_archive_target(o.output, true,
+                       archive_bytes(geometry, options, certain_bytes(geometry, options)));
   std::optional<PendingFile> stats;  // a bad path is noticed before the work
   if (!o.stats.empty()) stats.emplace(o.stats);
   if (o.settings.model != ModelKind::rigid)

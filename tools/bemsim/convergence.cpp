@@ -60,7 +60,6 @@ class Study {
  public:
   Study(const Options& options, const Scene& scene, Log& log)
       : options_(options), scene_(scene), cache_(cache_of(options)), log_(log), bar_(log) {
-    refuse_archives(scene_);
     scene_.output.surface = OutputSurface::simulation;
     for (BodySpec& body : scene_.bodies) body.render_mesh.reset();
     points_ = followed_points(scene_);

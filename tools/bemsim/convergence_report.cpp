@@ -18,10 +18,6 @@ double relative(double value, const QuantityResult& quantity) {
   return quantity.size > 0 ? value / quantity.size : 0;
 }
 
-std::string percent_text(double value) {
-  return rounded_text(100 * value, value < 0.995 ? 2 : 3) + " %";
-}
-
 std::string seconds_or_dash(const std::optional<double>& seconds) {
   return seconds ? rounded_text(*seconds, 3) + " s" : "-";
 }

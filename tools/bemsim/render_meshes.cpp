@@ -28,10 +28,8 @@ std::shared_ptr<const BoundMesh> bind(const PlannedBody& body) {
   auto mesh = at_place(path.location, [&] {
     return std::make_shared<const RenderMesh>(read_render_mesh(path.resolved, scale));
   });
-  const BodyGeometry& geometry = body.archive->geometry();
-  TriangleMesh surface = geometry.nodes;
-  for (Vec3& x : surface.vertices) x += geometry.mass.centre;
-  return std::make_shared<const BoundMesh>(std::move(mesh), surface);
+  return std::make_shared<const BoundMesh>(std::move(mesh),
+                                           surface_at_rest(body.archive->geometry()));
 }
 
 /// Whether files get more of a mesh than its triangles.

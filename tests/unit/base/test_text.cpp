@@ -10,6 +10,12 @@ TEST_CASE("numbers read back exactly") {
   CHECK(rounded_text(1.0 / 3.0, 2) == "0.33");
 }
 
+TEST_CASE("shares are written in per cent") {
+  CHECK(percent_text(0.0283) == "2.8 %");
+  CHECK(percent_text(0.997) == "99.7 %");
+  CHECK(percent_text(1.04) == "104 %");
+}
+
 TEST_CASE("counts agree with their noun") {
   CHECK(count_text(1, "edge") == "1 edge");
   CHECK(count_text(3, "such edge") == "3 such edges");
