@@ -14,6 +14,37 @@ namespace {
 
 constexpr int kPatchTriangles = 16;
 
+/// What to count of a pair of patches if every entry gets the mirror image of its mirror image:
+/// each pair of them once.
+double part_of_pair(std::size_t x, std::size_t y) {
+  return x < y ? 1 : x == y ? 0.5 : 0;
+}
+
+/// Adds to the columns of nodes from i on, in the row of node i, what stands in their rows.
+template <class T>
+void add_mirror_images(GalerkinRows<T>& rows) {
+  const std::size_t stride = rows.padded_lanes;
+  parallel_for(rows.nodes, [&](std::size_t i) {
+    const FlushDenormals flush;
+    const int row = static_cast<int>(i);
+    const auto add = [&](int node, int e, int mirrored_e) {
+      T* to = rows.inertia_block(row, node) + e * stride;
+      const T* from = rows.inertia_block(node, row) + mirrored_e * stride;
+      for (std::size_t lane = 0; lane < stride; ++lane) to[lane] += from[lane];
+    };
+    for (int node = row + 1; node < rows.nodes; ++node)
+      for (int e = 0; e < 9; ++e) add(node, e, 3 * (e % 3) + e / 3);
+    for (int e : {0, 4, 8}) add(row, e, e);
+    for (int e : {1, 2, 5}) {
+      const int below = 3 * (e % 3) + e / 3;
+      add(row, e, below);
+      std::copy_n(rows.inertia_block(row, row) + e * stride, stride,
+                  rows.inertia_block(row, row) + below * stride);
+    }
+  });
+  rows.static_h += Eigen::MatrixXd(rows.static_h.transpose());
+}
+
 }  // namespace
 
 GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
@@ -50,7 +81,7 @@ template <class T>
 void GalerkinAssembler::assemble_rows(int first, int last, MatrixForm form,
                                       const LaneTable<T>& lanes, GalerkinRows<T>& rows) const {
   const int n = static_cast<int>(mesh_.vertices.size()), count = last - first;
-  const bool symmetric = form == MatrixForm::symmetric;
+  const bool symmetric = form == MatrixForm::symmetric, mirrored = symmetric && count == n;
   const std::size_t stride = lanes.padded_lanes;
   rows.first = first;
   rows.last = last;
@@ -90,8 +121,9 @@ void GalerkinAssembler::assemble_rows(int first, int last, MatrixForm form,
       blocks[i].clear(count, y, lanes.padded_lanes);
       for (std::size_t k = 0; k < patches.size(); ++k) {
         check_interruption();
-        const bool with_h = !symmetric || y.nodes.back() >= first + wanted[k].rows.front();
-        blocks[i].add(pairs_, patches[k], wanted[k], y, lanes, with_h);
+        const bool above = y.nodes.back() >= first + wanted[k].rows.front();
+        const double h_part = mirrored ? part_of_pair(k, begin + i) : !symmetric || above ? 1 : 0;
+        blocks[i].add(pairs_, patches[k], wanted[k], y, lanes, h_part);
       }
     });
     parallel_for(count, [&](std::size_t row) {
@@ -100,6 +132,7 @@ void GalerkinAssembler::assemble_rows(int first, int last, MatrixForm form,
         add_block_row(patches_[begin + i], blocks[i], static_cast<int>(row), rows);
     });
   }
+  if (mirrored) add_mirror_images(rows);
 }
 
 template <class T>

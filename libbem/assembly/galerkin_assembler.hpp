@@ -26,6 +26,10 @@ struct GalerkinRows {
   AlignedVector<double> strain;  ///< J of uniform strain: [row][3 axes x 6][padded lane]
   Eigen::MatrixXd static_h, static_g;  ///< D(0), M/2 - K'(0): 3 (last - first) x 3N
 
+  T* inertia_block(int row, int node) {
+    return &inertia[(std::size_t(row) * (nodes - first_column) + node - first_column) * 9 *
+                    padded_lanes];
+  }
   const T* inertia_block(int row, int node) const {
     return &inertia[(std::size_t(row) * (nodes - first_column) + node - first_column) * 9 *
                     padded_lanes];

@@ -137,7 +137,8 @@ void PatchBlock<T>::sum_by_midpoints(const PairIntegrals& pairs, const SurfacePa
 template <class T>
 void PatchBlock<T>::add_static_by_shapes(const PairIntegrals& pairs, const SurfacePatch& x,
                                          const PatchRows& wanted, const SurfacePatch& y,
-                                         bool with_h) {
+                                         double h_part) {
+  const bool with_h = h_part != 0;
   const Material& m = pairs.material();
   Entries &h = own_static_h_, &g = own_static_g_;
   set_zero(h, x.shape_count, y.shape_count);
@@ -158,7 +159,8 @@ void PatchBlock<T>::add_static_by_shapes(const PairIntegrals& pairs, const Surfa
         }
     }
   for (int e = 0; e < 9; ++e) {
-    if (with_h) static_h[e](wanted.rows, Eigen::all) += wanted.dense_shapes * (h[e] * of_y_);
+    if (with_h)
+      static_h[e](wanted.rows, Eigen::all) += h_part * (wanted.dense_shapes * (h[e] * of_y_));
     static_g[e](wanted.rows, Eigen::all) += wanted.dense_shapes * g[e];
   }
 }
@@ -168,7 +170,7 @@ void PatchBlock<T>::add_static_by_shapes(const PairIntegrals& pairs, const Surfa
 template <class T>
 void PatchBlock<T>::add_static_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x,
                                             const PatchRows& wanted, const SurfacePatch& y,
-                                            bool with_h) {
+                                            double h_part) {
   const Material& material = pairs.material();
   const double kappa = material.kappa();
   const StaticTraction traction(kappa);
@@ -206,13 +208,13 @@ void PatchBlock<T>::add_static_by_midpoints(const PairIntegrals& pairs, const Su
     static_g[e](wanted.rows, Eigen::all) -= sum;
   }
 
-  if (!with_h) return;
+  if (h_part == 0) return;
   product(forms, curls_of_y_, by_y);  // [1/r, h h^T/r][x] x [axis of the curl at y][node]
   const auto of_curls = [&](int form, int x_axis, int y_axis) {
     product(wanted.curls_at[x_axis], by_y.block(form * from, y_axis * nodes, from, nodes), sum);
     return sum;
   };
-  const double scale = material.shear_modulus / (4 * kPi);
+  const double scale = h_part * material.shear_modulus / (4 * kPi);
   Eigen::MatrixXd crossed[9];
   for (int e = 0; e < 9; ++e) crossed[e] = of_curls(0, e / 3, e % 3);
   const Eigen::MatrixXd along = crossed[0] + crossed[4] + crossed[8];
@@ -234,14 +236,18 @@ void PatchBlock<T>::add_static_by_midpoints(const PairIntegrals& pairs, const Su
 template <class T>
 void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& x,
                                 const PatchRows& wanted, const SurfacePatch& y,
-                                const LaneTable<T>& lanes, bool with_h, bool far) {
+                                const LaneTable<T>& lanes, double h_part, bool far) {
+  const bool with_h = h_part != 0;
   const std::size_t entry = 9 * static_cast<std::size_t>(lanes.padded_lanes);
   const std::size_t nodes = y.nodes.size(), hats = y.hats.size();
   const std::size_t own_x = far ? x.midpoints.size() : x.shape_count;
   const SparseRows& of_rows = far ? wanted.midpoints : wanted.shapes;
-  const auto add_to = [&](AlignedVector<T>& to, const AlignedVector<T>& by_own, std::size_t size) {
+  const auto add_to = [&](AlignedVector<T>& to, const AlignedVector<T>& by_own, std::size_t size,
+                          double part = 1) {
     some_rows_.resize(wanted.rows.size() * size);
     combine_rows(of_rows, by_own.data(), size, some_rows_.data());
+    if (part != 1)
+      for (T& value : some_rows_) value *= static_cast<T>(part);
     add_rows(wanted.rows, some_rows_.data(), size, to.data());
   };
   const auto by_node = [&](const SparseRows& of_y, std::size_t own_y,
@@ -254,12 +260,13 @@ void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& 
   if (far) {
     const std::size_t points = y.midpoints.size();
     sum_by_midpoints(pairs, x, y, lanes, with_h);
-    if (with_h) add_to(inertia, by_node(y.displacements_at, points, own_inertia_), nodes * entry);
+    if (with_h)
+      add_to(inertia, by_node(y.displacements_at, points, own_inertia_), nodes * entry, h_part);
     add_to(adjoint, by_node(y.tractions_at, points, own_adjoint_), hats * entry);
   } else {
     sum_by_shapes(pairs, x, y, lanes, with_h);
     if (with_h)
-      add_to(inertia, by_node(y.displacements, y.shape_count, own_inertia_), nodes * entry);
+      add_to(inertia, by_node(y.displacements, y.shape_count, own_inertia_), nodes * entry, h_part);
     add_to(adjoint, own_adjoint_, hats * entry);
   }
   add_to(strain, own_strain_, 2 * entry);
@@ -267,16 +274,16 @@ void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& 
 
 template <class T>
 void PatchBlock<T>::add(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
-                        const SurfacePatch& y, const LaneTable<T>& lanes, bool with_h) {
+                        const SurfacePatch& y, const LaneTable<T>& lanes, double h_part) {
   const double apart = distance(x.box, y.box), edge = std::max(x.longest_edge, y.longest_edge);
   const auto far = [&](KernelPart part) {
     return pairs.quadrature().midpoints_suffice(apart, edge, part);
   };
-  add_dynamic(pairs, x, wanted, y, lanes, with_h, far(KernelPart::dynamic_part));
+  add_dynamic(pairs, x, wanted, y, lanes, h_part, far(KernelPart::dynamic_part));
   if (far(KernelPart::static_part))
-    add_static_by_midpoints(pairs, x, wanted, y, with_h);
+    add_static_by_midpoints(pairs, x, wanted, y, h_part);
   else
-    add_static_by_shapes(pairs, x, wanted, y, with_h);
+    add_static_by_shapes(pairs, x, wanted, y, h_part);
 }
 
 template class PatchBlock<float>;

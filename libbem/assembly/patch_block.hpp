@@ -49,21 +49,21 @@ class PatchBlock {
 
   /// Starts with `rows` rows of zeros.
   void clear(int rows, const SurfacePatch& y, int padded_lanes);
-  /// Adds what the patch x has with y: to all matrices, or to those of tractions alone.
+  /// Adds what the patch x has with y: to G all of it, to H `h_part` of it, which may be zero.
   void add(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
-           const SurfacePatch& y, const LaneTable<T>& lanes, bool with_h);
+           const SurfacePatch& y, const LaneTable<T>& lanes, double h_part);
 
  private:
   void add_dynamic(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
-                   const SurfacePatch& y, const LaneTable<T>& lanes, bool with_h, bool far);
+                   const SurfacePatch& y, const LaneTable<T>& lanes, double h_part, bool far);
   void sum_by_shapes(const PairIntegrals& pairs, const SurfacePatch& x, const SurfacePatch& y,
                      const LaneTable<T>& lanes, bool with_h);
   void sum_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x, const SurfacePatch& y,
                         const LaneTable<T>& lanes, bool with_h);
   void add_static_by_shapes(const PairIntegrals& pairs, const SurfacePatch& x,
-                            const PatchRows& wanted, const SurfacePatch& y, bool with_h);
+                            const PatchRows& wanted, const SurfacePatch& y, double h_part);
   void add_static_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x,
-                               const PatchRows& wanted, const SurfacePatch& y, bool with_h);
+                               const PatchRows& wanted, const SurfacePatch& y, double h_part);
 
   /// Of one patch of x alone, by its rows.
   AlignedVector<T> some_rows_;

@@ -170,12 +170,13 @@ TEST_CASE("entries on and beyond the diagonal are those of whole rows, which are
   const Discretisation d = discretisation("bdf1", size, 0.3);
   const GalerkinAssembler assembler(nodes, size, d);
   const int n = static_cast<int>(nodes.vertices.size()), middle = n / 2;
-  GalerkinRows<double> whole, upper;
+  GalerkinRows<double> whole, upper, mirrored;
   assembler.assemble(0, n, MatrixForm::general, whole);
   assembler.assemble(middle, n, MatrixForm::symmetric, upper);
+  assembler.assemble(0, n, MatrixForm::symmetric, mirrored);
   CHECK(upper.inertia.size() < whole.inertia.size() / 3);
   const double tiny = 1e-13;
-  double largest = 0, worst[4] = {};
+  double largest = 0, worst[6] = {};
   for (int i = 0; i < 3 * n; ++i)
     for (int j = 0; j < 3 * n; ++j) {
       const int lanes = whole.padded_lanes, from = 3 * (i % 3) + j % 3, back = 3 * (j % 3) + i % 3;
@@ -186,7 +187,10 @@ TEST_CASE("entries on and beyond the diagonal are those of whole rows, which are
       largest = std::max(largest, std::abs(z));
       note(0, whole.static_h(i, j) - whole.static_h(j, i));
       note(1, z - whole.inertia_block(j / 3, i / 3)[back * lanes]);
-      if (i < 3 * middle || j / 3 < i / 3) continue;
+      if (j / 3 < i / 3) continue;
+      note(4, mirrored.static_h(i, j) - whole.static_h(i, j));
+      note(5, mirrored.inertia_block(i / 3, j / 3)[from * lanes] - z);
+      if (i < 3 * middle) continue;
       note(2, upper.static_h(i - 3 * middle, j) - whole.static_h(i, j));
       note(3, upper.inertia_block(i / 3 - middle, j / 3)[from * lanes] - z);
     }
@@ -195,6 +199,8 @@ TEST_CASE("entries on and beyond the diagonal are those of whole rows, which are
   CHECK(worst[1] < tiny * largest);
   CHECK(worst[2] < tiny * stiffness);
   CHECK(worst[3] < tiny * largest);
+  CHECK(worst[4] < tiny * stiffness);
+  CHECK(worst[5] < tiny * largest);
   CHECK((upper.static_g - whole.static_g.bottomRows(3 * (n - middle))).norm() <
         tiny * whole.static_g.norm());
   // a translation has no stiffness
