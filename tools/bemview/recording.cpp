@@ -114,13 +114,14 @@ std::vector<ViewField> Recording::stored_fields() const {
 }
 
 void Recording::choose_fields(const std::vector<std::string>& asked) {
-  std::vector<ViewField> all{{kDisplacement, kDisplacement, "m", 3, false}};
-  for (const ViewField& field : stored_fields()) all.push_back(field);
   const auto called = [](const std::string& name) {
     return [name](const ViewField& f) { return f.name == name; };
   };
+  std::vector<ViewField> all = stored_fields();
   if (std::none_of(all.begin(), all.end(), called(kSpeed)) && frames_.size() > 1)
-    all.insert(all.begin() + 1, {kSpeed, kSpeed, "m/s", 3, false});
+    all.push_back({kSpeed, kSpeed, "m/s", 3, false});
+  std::stable_partition(all.begin(), all.end(), called(kSpeed));
+  all.insert(all.begin(), {kDisplacement, kDisplacement, "m", 3, false});
   std::vector<std::string> names;
   for (const ViewField& field : all) names.push_back(field.name);
   for (const std::string& name : asked)

@@ -1,7 +1,7 @@
 // The plot of one quantity of the visible bodies over time; a click goes to a time.
-import { numberText, roundStep, scaleFor, valueText } from "./units.js";
+import { decimalsOf, numberText, roundStep, scaleFor, valueText } from "./units.js";
 
-const MARGIN = { left: 64, right: 18, top: 10, bottom: 22 };
+const MARGIN = { left: 72, right: 18, top: 10, bottom: 22 };
 
 /** What can be plotted: every quantity, of vectors the length and the components. */
 export function quantitiesOf(series) {
@@ -72,26 +72,46 @@ export class Chart {
     this.low = Math.floor(low / this.step + 1e-6) * this.step;
     this.high = Math.ceil(high / this.step - 1e-6) * this.step;
     this.scale = scaleFor(size, quantity?.units ?? "");
+    this.refresh();
   }
 
   yOf(value) {
     return MARGIN.top + this.inner.height * (1 - (value - this.low) / (this.high - this.low));
   }
 
+  /** Forgets what was drawn: size, colours or curves are others. */
+  refresh() {
+    this.still = null;
+  }
+
   draw(place) {
     const { canvas } = this;
-    const ratio = Math.min(2, window.devicePixelRatio || 1);
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (!this.quantity || width === 0) return;
-    canvas.width = width * ratio;
-    canvas.height = height * ratio;
-    const context = canvas.getContext("2d");
-    context.scale(ratio, ratio);
     const style = getComputedStyle(document.body);
+    this.still ??= this.drawn(style, width, height);
+    if (canvas.width !== this.still.width) canvas.width = this.still.width;
+    if (canvas.height !== this.still.height) canvas.height = this.still.height;
+    const context = canvas.getContext("2d");
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.clearRect(0, 0, canvas.width, canvas.height);
+    context.drawImage(this.still, 0, 0);
+    context.scale(canvas.width / width, canvas.height / height);
+    this.drawMarker(context, style, place);
+  }
+
+  /** Axes and curves, which do not depend on the time. */
+  drawn(style, width, height) {
+    const still = document.createElement("canvas");
+    const ratio = Math.min(2, window.devicePixelRatio || 1);
+    still.width = Math.round(width * ratio);
+    still.height = Math.round(height * ratio);
+    const context = still.getContext("2d");
+    context.scale(ratio, ratio);
     context.font = `12px ${style.fontFamily}`;
     this.drawAxes(context, style);
     for (const curve of this.curves) this.drawCurve(context, curve);
-    this.drawMarker(context, style, place);
+    return still;
   }
 
   drawAxes(context, style) {
@@ -100,11 +120,13 @@ export class Chart {
     context.lineWidth = 1;
     context.textBaseline = "middle";
     context.textAlign = "right";
-    const decimals = Math.max(0, -Math.floor(Math.log10(this.step / this.scale.factor) + 1e-9) + ((this.step / this.scale.factor).toPrecision(2).includes("25") ? 1 : 0));
+    const decimals = decimalsOf(this.step / this.scale.factor);
     for (let value = this.low; value <= this.high + 0.5 * this.step; value += this.step) {
       const y = Math.round(this.yOf(value)) + 0.5;
       this.line(context, MARGIN.left, y, this.canvas.clientWidth - MARGIN.right, y);
-      context.fillText(numberText(Math.abs(value) < 1e-9 * this.step ? 0 : value, this.scale, decimals), MARGIN.left - 10, y);
+      const text = numberText(Math.abs(value) < 1e-9 * this.step ? 0 : value, this.scale, decimals);
+      const units = value + 0.5 * this.step > this.high ? ` ${this.scale.units}` : "";
+      context.fillText(text + units, MARGIN.left - 10, y);
     }
     this.drawTimes(context);
   }
@@ -113,7 +135,7 @@ export class Chart {
     const { times, duration } = this.recording;
     const step = roundStep(duration, Math.max(2, this.inner.width / 110));
     const scale = scaleFor(times.at(-1), "s");
-    const decimals = Math.max(0, Math.ceil(-Math.log10(step / scale.factor) - 1e-9));
+    const decimals = decimalsOf(step / scale.factor);
     context.textAlign = "center";
     context.textBaseline = "alphabetic";
     for (let time = Math.ceil(times[0] / step - 1e-9) * step; time <= times.at(-1) + 1e-9 * step; time += step)

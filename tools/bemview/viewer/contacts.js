@@ -1,6 +1,7 @@
 // Arrows of the contact forces of a frame.
 import { BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, InstancedMesh, Matrix4, MeshStandardMaterial, Quaternion, Vector3 } from "three";
 
+export const ARROW_COLOUR = "#2f6bff";
 const UP = new Vector3(0, 1, 0);
 
 /** From the origin to (0, 1, 0): a shaft and a head. */
@@ -28,11 +29,12 @@ export class ContactArrows extends InstancedMesh {
   constructor(contacts, longest) {
     const begins = Uint32Array.from(contacts.ends, (_, k) => (k === 0 ? 0 : contacts.ends[k - 1]));
     const most = contacts.ends.reduce((m, end, k) => Math.max(m, end - begins[k]), 1);
-    super(arrowGeometry(), new MeshStandardMaterial({ color: "#3355d8", roughness: 0.5 }), most);
+    super(arrowGeometry(), new MeshStandardMaterial({ color: ARROW_COLOUR, roughness: 0.5, transparent: true, depthTest: false, depthWrite: false }), most);
     this.contacts = contacts;
     this.begins = begins;
     this.longest = longest;
     this.frustumCulled = false;
+    this.renderOrder = 1; // over everything: most arrows are inside bodies
     const sizes = Float32Array.from({ length: contacts.forces.length / 3 }, (_, i) => Math.hypot(...contacts.forces.subarray(3 * i, 3 * i + 3)));
     this.large = large(sizes.filter((size) => size > 0));
   }

@@ -1,6 +1,7 @@
 // Everything around the view: buttons, lists, legend, keys.
 import { bodyColour, gradient } from "./colours.js";
 import { quantitiesOf } from "./chart.js";
+import { ARROW_COLOUR } from "./contacts.js";
 import { SPEEDS } from "./player.js";
 import { numberText, scaleFor, valueText } from "./units.js";
 
@@ -35,15 +36,19 @@ export class Controls {
     this.addKeys();
     this.followTheme();
     new ResizeObserver(() => this.resize()).observe($("stage"));
-    new ResizeObserver(() => this.chart.draw(this.player.place)).observe($("chart"));
+    new ResizeObserver(() => {
+      this.chart.refresh();
+      this.chart.draw(this.player.place);
+    }).observe($("chart"));
     this.resize();
   }
 
   fillHeading() {
     const { title, program, bodies } = this.recording.description;
     $("title").textContent = title;
-    const counts = [`${bodies.length === 1 ? "1 body" : `${bodies.length} bodies`}`, `${bodies.reduce((sum, b) => sum + b.vertices, 0).toLocaleString("en")} vertices`, `${this.recording.frames} frames`];
-    $("subtitle").textContent = [...counts, program].filter(Boolean).join(" · ");
+    const vertices = bodies.reduce((sum, body) => sum + body.vertices, 0).toLocaleString("en");
+    $("subtitle").textContent = `${bodies.length === 1 ? "1 body" : `${bodies.length} bodies`} · ${vertices} vertices · ${this.recording.frames} frames`;
+    if (program) $("subtitle").append(made("span", { className: "wide", textContent: ` · ${program}` }));
   }
 
   fillTransport() {
@@ -119,7 +124,7 @@ export class Controls {
   }
 
   addContacts() {
-    $("obstacles").append(this.toggleRow(this.stage.arrows, "#3355d8").row);
+    $("obstacles").append(this.toggleRow(this.stage.arrows, ARROW_COLOUR).row);
   }
 
   addQuantities() {
@@ -160,7 +165,7 @@ export class Controls {
     $("scrub").value = frame;
     this.fillTrack(place);
     const time = valueText(this.recording.timeOf(place), this.clockScale);
-    $("clock").replaceChildren(made("b", { textContent: time }), ` frame ${frame}`);
+    $("clock").replaceChildren(made("b", { textContent: time }), made("span", { textContent: `frame ${frame}` }));
     document.body.dataset.frame = frame;
     document.body.dataset.playing = this.player.playing;
     $("play-shape").setAttribute("d", this.player.playing ? PAUSE : PLAY);
@@ -261,6 +266,7 @@ export class Controls {
   setTheme(name) {
     document.documentElement.dataset.theme = name;
     this.stage.setTheme(name);
+    this.chart.refresh();
     this.chart.draw(this.player.place);
   }
 

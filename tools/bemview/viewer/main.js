@@ -15,6 +15,7 @@ async function start() {
   document.title = recording.description.title;
   await recording.readScene();
   await recording.readFrames();
+  performance.mark("first frame decoded");
   const stage = new Stage($("view"), recording);
   const player = new Player(recording, (place) => controls.show(place));
   const chart = new Chart($("chart"), recording, (time) => player.goToTime(time));
@@ -24,6 +25,7 @@ async function start() {
   stage.draw();
   document.body.dataset.state = "shown";
   performance.mark("first frame");
+  window.bemview = { recording, stage, player }; // for the browser's console
   animate(stage, player);
   await readRest(recording, stage, controls);
   document.body.dataset.state = "ready";

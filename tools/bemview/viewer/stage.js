@@ -13,7 +13,7 @@ import {
   Quaternion,
   Scene,
   Vector3,
-  VSMShadowMap,
+  PCFShadowMap,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -36,7 +36,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = VSMShadowMap;
+    this.renderer.shadowMap.type = PCFShadowMap;
     this.scene = new Scene();
     this.world = new Group(); // turned so that up is y
     this.world.quaternion.setFromUnitVectors(new Vector3(...recording.description.up), Y);
@@ -85,8 +85,7 @@ export class Stage {
     this.key.castShadow = true;
     this.key.shadow.mapSize.set(1024, 1024);
     Object.assign(this.key.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.5 * this.radius, far: 6 * this.radius });
-    this.key.shadow.radius = 5;
-    this.key.shadow.blurSamples = 12;
+    this.key.shadow.radius = 4;
     this.key.shadow.bias = -0.0004;
     this.key.shadow.normalBias = 0.004 * this.radius;
     this.rim = new DirectionalLight("#dfe8ff", 0.55);
@@ -117,14 +116,13 @@ export class Stage {
     if (!floor) add(new Vector3(0, this.box.min.y - 0.012 * this.radius, 0), Y, false, "");
   }
 
+  /** Like glass, because bodies may be inside. */
   addObstacles() {
     this.obstacles = [];
     for (const obstacle of this.recording.obstacles.filter((o) => !o.normal)) {
-      const material = new MeshStandardMaterial({ roughness: 0.85, side: DoubleSide, transparent: true, opacity: 0.55 });
+      const material = new MeshStandardMaterial({ roughness: 0.85, side: DoubleSide, transparent: true, opacity: 0.3, depthWrite: false });
       const mesh = new Mesh(new Surface(obstacle.points, obstacle.corners).geometry, material);
       mesh.name = obstacle.name;
-      mesh.receiveShadow = true;
-      mesh.castShadow = true;
       mesh.userData.poses = obstacle.poses;
       this.obstacles.push(mesh);
       this.world.add(mesh);
@@ -198,7 +196,7 @@ export class Stage {
     for (const corner of this.corners) {
       const at = corner.clone().sub(this.centre);
       const needed = Math.max(Math.abs(at.dot(right)) / (tangent * free), Math.abs(at.dot(above)) / tangent);
-      distance = Math.max(distance, 1.22 * needed + at.dot(direction));
+      distance = Math.max(distance, 1.12 * needed + at.dot(direction));
     }
     this.controls.target.copy(this.centre);
     this.camera.position.copy(this.centre).addScaledVector(direction, distance);

@@ -31,6 +31,13 @@ export function valueText(value, scale) {
   return `${numberText(value, scale)} ${scale.units}`.trim();
 }
 
+/** How many decimals multiples of a round step have. */
+export function decimalsOf(step) {
+  let decimals = 0;
+  while (decimals < 9 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6 * step * 10 ** decimals) decimals++;
+  return decimals;
+}
+
 /** Round steps that divide a range into about `count` parts. */
 export function roundStep(range, count) {
   if (!(range > 0)) return 1;
