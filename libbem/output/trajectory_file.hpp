@@ -9,10 +9,11 @@
 
 namespace bem {
 
-/// Attribute of a body's group in trajectories with render meshes, and its value for these; that of
-/// simulated surfaces beside them is "simulation".
+/// Attribute of a body's group in trajectories with render meshes, and its values for these and for
+/// simulated surfaces beside them.
 inline constexpr const char* kSurfaceAttribute = "surface";
 inline constexpr const char* kRenderSurface = "render";
+inline constexpr const char* kSimulatedSurface = "simulation";
 
 /// A trajectory.h5 (output/hdf5_trajectory.hpp) that is read back. Structure, types and extents are
 /// checked before anything is read, and that numbers are finite when they are. Everything throws

@@ -73,6 +73,14 @@ class Bemview(unittest.TestCase):
         self.view("t.h5", "-o", "v.html", "--fps", 25, "--force")
         self.assertEqual(self.description()["frames"], 21)
 
+    def test_a_simulated_surface_beside_a_render_mesh(self):
+        """It would be in the way: it is shown if it is asked for."""
+        with h5py.File(self.folder / "t.h5", "r+") as file:
+            file["bodies/left"].attrs["surface"] = "simulation"
+        for choice, expected in [([], ["right"]), (["--bodies", "left"], ["left"])]:
+            self.view("t.h5", "-o", "v.html", "--force", *choice)
+            self.assertEqual([body["name"] for body in self.description()["bodies"]], expected)
+
     def test_what_is_refused(self):
         self.refused("t.h5", code=2, parts=["--output"])
         self.refused("t.h5", "-o", "t.h5", code=2, parts=["is an input"])

@@ -11,8 +11,10 @@ import unittest
 import h5py
 import numpy as np
 
-import browser
 from trajectories import FRAMES, write_layout_1, write_layout_2
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+from common import browser  # noqa: E402
 
 WIDTH, HEIGHT = 460, 640  # as on a phone
 CORAL, TEAL = (255, 125, 107), (47, 181, 166)  # colours of the first two bodies

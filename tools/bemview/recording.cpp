@@ -3,6 +3,7 @@
 #include "scene/location.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -22,6 +23,12 @@ const std::set<std::string> kNoFields{"positions", "faces", "frame", "series", "
                                     (list.empty() ? "none at all" : list));
 }
 
+/// The simulated surface of a body that is in the file as a render mesh, too.
+bool is_beside_render_mesh(const TrajectoryFile& file, const std::string& body) {
+  return file.text("/bodies/" + body, kSurfaceAttribute) == kSimulatedSurface;
+}
+
+/// In the order of the scene; simulated surfaces beside render meshes if they are asked for.
 std::vector<std::string> chosen_bodies(const TrajectoryFile& file,
                                        const std::vector<std::string>& asked) {
   std::vector<std::string> all = file.names("/bodies"), chosen;
@@ -29,7 +36,8 @@ std::vector<std::string> chosen_bodies(const TrajectoryFile& file,
     if (std::find(all.begin(), all.end(), name) == all.end())
       refuse_name("body", name, all, file.path());
   for (const std::string& name : all)
-    if (asked.empty() || std::find(asked.begin(), asked.end(), name) != asked.end())
+    if (asked.empty() ? !is_beside_render_mesh(file, name)
+                      : std::find(asked.begin(), asked.end(), name) != asked.end())
       chosen.push_back(name);
   if (chosen.empty()) throw Error(ErrorCode::archive, file.path() + ": has no body to show");
   return chosen;
@@ -41,6 +49,17 @@ std::string label_of(std::string name) {
   if (name == "velocities") return "speed";
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
+}
+
+/// Of a quantity: a number, or a text that begins with one; 0 of anything else.
+double leading_number(const nlohmann::json& quantity) {
+  if (quantity.is_number()) return quantity.get<double>();
+  double number = 0;
+  if (quantity.is_string()) {
+    const auto& text = quantity.get_ref<const std::string&>();
+    std::from_chars(text.data(), text.data() + text.size(), number);
+  }
+  return number;
 }
 
 std::string dataset(const ViewField& field) {
@@ -72,8 +91,7 @@ Vec3 up_of_scene(const std::string& text) {
   Vec3 gravity = Vec3::Zero();
   if (scene.is_object() && scene.contains("gravity") && scene["gravity"].is_array() &&
       scene["gravity"].size() == 3)
-    for (int i = 0; i < 3; ++i)
-      if (scene["gravity"][i].is_number()) gravity[i] = scene["gravity"][i];
+    for (int i = 0; i < 3; ++i) gravity[i] = leading_number(scene["gravity"][i]);
   return gravity.norm() > 0 ? Vec3(-gravity.normalized()) : Vec3(Vec3::UnitY());
 }
 

@@ -21,7 +21,8 @@ TEST_CASE("frames are chosen by number and by rate", "[recording]") {
 TEST_CASE("up is against gravity", "[recording]") {
   CHECK(up_of_scene(R"({"gravity": [0, 0, -9.81]})") == Vec3(Vec3::UnitZ()));
   CHECK(up_of_scene(R"({"gravity": [0, 0, 0]})") == Vec3(Vec3::UnitY()));
-  CHECK(up_of_scene(R"({"gravity": ["1 m/s^2", 0, "x"]})") == Vec3(Vec3::UnitY()));
+  CHECK(up_of_scene(R"({"gravity": [0, 0, "-981 cm/s^2"]})") == Vec3(Vec3::UnitZ()));
+  CHECK(up_of_scene(R"({"gravity": ["x", 0, []]})") == Vec3(Vec3::UnitY()));
   CHECK(up_of_scene("") == Vec3(Vec3::UnitY()));
   CHECK(up_of_scene("no JSON") == Vec3(Vec3::UnitY()));
 }

@@ -138,8 +138,11 @@ export class Chart {
     const decimals = decimalsOf(step / scale.factor);
     context.textAlign = "center";
     context.textBaseline = "alphabetic";
-    for (let time = Math.ceil(times[0] / step - 1e-9) * step; time <= times.at(-1) + 1e-9 * step; time += step)
-      context.fillText(`${numberText(time, scale, decimals)} ${scale.units}`, this.xOf(time), this.canvas.clientHeight - 4);
+    for (let time = Math.ceil(times[0] / step - 1e-9) * step; time <= times.at(-1) + 1e-9 * step; time += step) {
+      const text = `${numberText(time, scale, decimals)} ${scale.units}`;
+      const furthest = this.canvas.clientWidth - context.measureText(text).width / 2;
+      context.fillText(text, Math.min(this.xOf(time), furthest), this.canvas.clientHeight - 4);
+    }
   }
 
   drawCurve(context, { values, colour }) {

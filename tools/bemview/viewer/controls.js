@@ -82,10 +82,11 @@ export class Controls {
     if (index < 0) return;
     const field = this.recording.fields[index];
     const scale = scaleFor(field.top, field.units);
+    const beyond = field.most > 1.02 * field.top;
     $("legend-label").textContent = field.label;
-    $("legend-most").textContent = field.most > 1.001 * field.top ? `largest ${valueText(field.most, scaleFor(field.most, field.units))}` : "";
+    $("legend-most").textContent = beyond ? `largest ${valueText(field.most, scaleFor(field.most, field.units))}` : "";
     const middle = numberText(field.top / 2, scale);
-    const ticks = ["0", middle, `${field.most > 1.001 * field.top ? "≥ " : ""}${numberText(field.top, scale)} ${scale.units}`];
+    const ticks = ["0", middle, `${beyond ? "≥ " : ""}${numberText(field.top, scale)} ${scale.units}`];
     $("legend-ticks").replaceChildren(...ticks.map((text) => made("span", { textContent: text })));
   }
 
@@ -130,8 +131,17 @@ export class Controls {
   addQuantities() {
     this.quantities = quantitiesOf(this.recording.series);
     $("quantity").replaceChildren(...this.quantities.map(({ key }, index) => made("option", { value: index, textContent: key })));
+    $("quantity").value = this.firstQuantity();
     $("plot").hidden = this.quantities.length === 0 || this.recording.frames < 2;
     this.updateCurves();
+  }
+
+  /** What the run recorded; else the height if bodies rise or fall, or how far they are deformed. */
+  firstQuantity() {
+    const height = this.quantities.findIndex(({ key }) => key === "height");
+    if (height > 0 || this.quantities.length < 2) return 0;
+    const rises = this.quantities[0].curves.some(({ values }) => values.some((value) => Math.abs(value - values[0]) > 0.05 * this.stage.radius));
+    return rises ? 0 : 1;
   }
 
   updateCurves() {

@@ -138,13 +138,19 @@ export class Stage {
 
   setTheme(name) {
     const theme = THEMES[name];
+    this.theme = theme;
     for (const ground of this.grounds) ground.setTheme(theme);
     this.ambient.color.set(theme.sky);
     this.ambient.groundColor.set(theme.earth);
-    this.ambient.intensity = theme.ambient;
-    this.key.intensity = theme.key;
+    this.setContrast();
     for (const mesh of this.obstacles) mesh.material.color = new Color(theme.obstacle);
     this.changed = true;
+  }
+
+  /** Less shading where colours stand for values. */
+  setContrast() {
+    this.ambient.intensity = this.theme.ambient * (this.painted < 0 ? 1 : 1.45);
+    this.key.intensity = this.theme.key * (this.painted < 0 ? 1 : 0.65);
   }
 
   /** Shows a place between frames: 2.5 is in the middle of the frames 2 and 3. */
@@ -166,6 +172,7 @@ export class Stage {
   /** Colours by the field with this number; -1 are the bodies' own colours. */
   paint(fieldIndex) {
     this.painted = fieldIndex;
+    this.setContrast();
     this.show(this.place);
   }
 

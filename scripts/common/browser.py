@@ -25,6 +25,10 @@ def program():
     return os.environ.get("BEM_CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
 
 
+class NoBrowser(Exception):
+    """There is no Chromium."""
+
+
 def _high(fd):
     """The same file under a number above those that Chromium takes."""
     moved = fcntl.fcntl(fd, fcntl.F_DUPFD, 10)
@@ -36,6 +40,8 @@ class Browser:
     """One page. Requests for anything but files and data are refused and kept in `requests`."""
 
     def __init__(self, width=900, height=700, scale=1, dark=False, mobile=False):
+        if not program():
+            raise NoBrowser("Chromium is missing: install it (scripts/setup.sh --test), or name it in BEM_CHROMIUM")
         self._profile = tempfile.mkdtemp(prefix="bem_chromium_")
         commands, self._to = map(_high, os.pipe())
         self._from, answers = map(_high, os.pipe())
