@@ -4,6 +4,7 @@ export const SPEEDS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1,
 
 /** The greatest speed, not above that of the clock, at which a run takes four seconds. */
 export function speedFor(duration) {
+  if (!(duration > 0)) return 1;
   return [...SPEEDS].reverse().find((speed) => speed <= 1 && duration / speed >= 3.9) ?? SPEEDS[0];
 }
 
