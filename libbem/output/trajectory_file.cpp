@@ -2,14 +2,13 @@
 
 #include "base/finite.hpp"
 #include "files/file_check.hpp"
+#include "output/trajectory_layout.hpp"
 
 #include <algorithm>
 #include <functional>
 
 namespace bem {
 namespace {
-
-constexpr const char* kTimes = "/time";
 
 Hdf5File open_checked(const std::string& path, ErrorCode error) {
   check_hdf5_file(path, Hdf5Storage::growing, error);
@@ -20,12 +19,12 @@ Hdf5File open_checked(const std::string& path, ErrorCode error) {
 
 TrajectoryFile::TrajectoryFile(const std::string& path, ErrorCode error)
     : file_(open_checked(path, error)) {
-  const Hdf5Dims dims = file_.dims(kTimes);
-  file_.require_dataset(kTimes, Hdf5Type::float64, {dims.empty() ? 0 : dims[0]});
-  times_ = file_.read<double>(kTimes);
-  check_finite(kTimes, times_.data(), times_.size());
+  const Hdf5Dims dims = file_.dims(kTimesPath);
+  file_.require_dataset(kTimesPath, Hdf5Type::float64, {dims.empty() ? 0 : dims[0]});
+  times_ = file_.read<double>(kTimesPath);
+  check_finite(kTimesPath, times_.data(), times_.size());
   if (std::adjacent_find(times_.begin(), times_.end(), std::greater_equal<>()) != times_.end())
-    throw Error(error, path + ": " + kTimes + " does not ascend");
+    throw Error(error, path + ": " + kTimesPath + " does not ascend");
 }
 
 std::string TrajectoryFile::series(const std::string& body, const std::string& name) const {
@@ -53,8 +52,8 @@ std::size_t TrajectoryFile::vertices(const std::string& body) const {
   return dims.size() == 3 ? dims[1] : 0;
 }
 
-bool TrajectoryFile::has_tractions(const std::string& body) const {
-  return file_.exists(series(body, "/tractions"));
+bool TrajectoryFile::has(const std::string& body, const std::string& name) const {
+  return file_.exists(series(body, name));
 }
 
 std::vector<std::array<int, 3>> TrajectoryFile::faces(const std::string& body) const {
@@ -84,7 +83,7 @@ void TrajectoryFile::read(const std::string& body, const std::string& name, cons
   for (std::size_t n : extents) count *= n;
   if (found[0] < times_.size() ||
       file_.stored_bytes(path) / sizeof(double) / std::max<std::size_t>(1, count) < times_.size())
-    throw Error(file_.error(), file_.path() + ": " + path + " has fewer frames than " + kTimes);
+    throw Error(file_.error(), file_.path() + ": " + path + " has fewer frames than " + kTimesPath);
   file_.read_rows(path, frame, 1, out);
   check_finite(path, out, count);
 }

@@ -9,14 +9,10 @@
 
 namespace bem {
 
-/// Attribute of a body's group in trajectories with render meshes, and its value for these; that of
-/// simulated surfaces beside them is "simulation".
-inline constexpr const char* kSurfaceAttribute = "surface";
-inline constexpr const char* kRenderSurface = "render";
-
-/// A trajectory.h5 (output/hdf5_trajectory.hpp) that is read back. Structure, types and extents are
-/// checked before anything is read, and that numbers are finite when they are. Everything throws
-/// Error with the code that it was opened with and a message that names file and place.
+/// A trajectory.h5 (docs/trajectory-format.md, version 1 or 2) that is read back. Structure, types
+/// and extents are checked before anything is read, and that numbers are finite when they are.
+/// Everything throws Error with the code that it was opened with and a message that names file and
+/// place.
 class TrajectoryFile {
  public:
   /// Opens a complete trajectory, or one whose writer was stopped. Reads it once (file_check.hpp).
@@ -29,7 +25,8 @@ class TrajectoryFile {
   /// Is it a render mesh, not the simulated surface?
   bool is_render_mesh(const std::string& body) const;
   std::size_t vertices(const std::string& body) const;
-  bool has_tractions(const std::string& body) const;
+  /// Has the body a field or series of this name ("/tractions", "/series/momentum")?
+  bool has(const std::string& body, const std::string& name) const;
   /// Vertex indices.
   std::vector<std::array<int, 3>> faces(const std::string& body) const;
 

@@ -111,7 +111,7 @@ void complete_places(Scene& scene) {
     if (body.place && !body.place->on.empty()) complete_place(*body.place, scene, obstacles);
 }
 
-Scene scene_from(const JsonDocument& document) {
+Scene scene_of(const JsonDocument& document) {
   JsonReader reader(JsonValue(document, document.root()), "a scene");
   Scene scene;
   scene.files = document.files();
@@ -143,14 +143,21 @@ Scene scene_from(const JsonDocument& document) {
   return scene;
 }
 
+Scene scene_from(JsonDocument document) {
+  std::string text = document.text();
+  Scene scene = scene_of(expanded_scene(std::move(document)));
+  scene.text = std::move(text);
+  return scene;
+}
+
 }  // namespace
 
 Scene read_scene(const std::string& path) {
-  return scene_from(expanded_scene(JsonDocument::read(path)));
+  return scene_from(JsonDocument::read(path));
 }
 
 Scene parse_scene(const std::string& file, const std::string& text) {
-  return scene_from(expanded_scene(JsonDocument::parse(file, text)));
+  return scene_from(JsonDocument::parse(file, text));
 }
 
 }  // namespace bem

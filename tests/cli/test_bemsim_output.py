@@ -25,7 +25,7 @@ class Trajectories(SimulationCase):
             self.assertEqual(file["time"].attrs["units"], "s")
             np.testing.assert_allclose(file["time"], DT * np.arange(5), rtol=1e-14)
             for body in file["bodies"].values():
-                self.assertEqual(set(body), {"positions", "faces", "frame", "tractions"})
+                self.assertEqual(set(body), {"positions", "faces", "frame", "series", "tractions"})
                 np.testing.assert_array_equal(body["faces"], faces)
                 self.assertEqual(body["faces"].dtype.kind, "i")
                 for name, (shape, units) in expected.items():

@@ -308,9 +308,12 @@ void print_plan(std::ostream& out, const Plan& plan) {
   out << "output:  " << count_text(static_cast<std::size_t>(plan.frames()), "frame") << " as";
   for (const OutputFormat* format : scene.output.formats)
     out << (format == scene.output.formats.front() ? " " : ", ") << format->name;
-  const auto& fields = scene.output.fields;
-  if (std::count(fields.begin(), fields.end(), OutputField::tractions) > 0)
-    out << ", with tractions";
+  bool first = true;
+  for (OutputField field : scene.output.fields) {
+    if (field == OutputField::positions) continue;
+    out << (first ? ", with " : ", ") << choice_name(field);
+    first = false;
+  }
   out << "\n";
   if (scene.contact.enabled)
     out << "contact: " << count_text(scene.obstacles.size(), "obstacle")
