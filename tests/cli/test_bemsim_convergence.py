@@ -35,8 +35,20 @@ class Convergence(SimulationCase):
         self.scene.update(duration=0.04, gravity=[0, -9.81, 0], contact={}, obstacles=[
             {"name": "floor", "plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}}])
         self.body.update(place={"on": "floor", "gap": 0.1}, tractions=[])
-        self.study("--coarser", 0)
-        self.assertLess(max(self.result()["all"]["position"]["from_finest"]), 1e-9)  # all of them fall alike
+        done = self.study("--coarser", 0)
+        position = self.result()["all"]["position"]
+        self.assertLess(max(position["from_finest"]), 1e-9)  # all of them fall alike
+        self.assertEqual((position["mesh"]["same"], position["mesh"]["converges"]), (True, None))
+        self.assertIn("positions and time steps: the same in all runs, to rounding\n", done.stdout)
+        self.assertIn("deformation: none in any run\n", done.stdout)
+        self.assertNotRegex(done.stdout, "too coarse|order|help")
+
+    def test_bodies_at_rest_get_no_verdict(self):
+        self.scene["duration"] = 0.04
+        del self.body["tractions"]
+        done = self.study("--coarser", 0)
+        self.assertTrue(done.stdout.endswith("nothing moves in any run: there is nothing to compare\n"), done.stdout)
+        self.assertEqual(self.result()["all"]["deformation"]["size"], 0)
 
     def test_the_runs_and_what_they_say(self):
         done = self.study("--coarser", 1)
