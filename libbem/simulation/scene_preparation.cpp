@@ -37,15 +37,11 @@ MeshInput read_input(const std::string& path) {
   return input;
 }
 
-/// Numbers of vertices and triangles are those of the mesh file, and mean others, or none, of a
-/// mesh that was made of it.
 void refuse_numbers(const BodySpec& body) {
-  for_each_selection(body, [](const Selection& s) {
-    if (s.kind == Selection::Kind::vertices || s.kind == Selection::Kind::triangles)
-      throw error_at(s.location,
-                     "the mesh was repaired or remeshed, so that its vertices and triangles, and "
-                     "groups of them, have no numbers; select by a box, sphere or plane");
-  });
+  if (const Selection* numbers = selection_by_numbers(body))
+    throw error_at(numbers->location,
+                   "the mesh was repaired or remeshed, so that its vertices and triangles, and "
+                   "groups of them, have no numbers; select by a box, sphere or plane");
 }
 
 /// The steps of prepare_scene().
@@ -193,6 +189,10 @@ void ScenePreparation::provide(BodySpec& body, BodyInputs& inputs) {
   inputs.settings.time_step = scene_.time_step;
   const std::string path = cache_.path_of(inputs.mesh, text_of_all(*body.source, inputs));
   body.archive.resolved = path;
+  if (missing_ == MissingArchives::count) {
+    if (!cache_.has(path)) listed_.insert(path);
+    return;
+  }
   if (missing_ == MissingArchives::list && !cache_.has(path)) {
     if (listed_.insert(path).second)
       at_place_of_input(body.source->mesh.location, [&] { plan(body, inputs); });

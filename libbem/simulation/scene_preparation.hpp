@@ -23,7 +23,8 @@ struct PreparationOptions {
 /// What prepare_scene() does with an archive that is not in the cache.
 enum class MissingArchives {
   compute,
-  list  ///< checks what the archive would be computed from, and says so with a note
+  list,  ///< checks what the archive would be computed from, and says so with a note
+  count  ///< nothing; nor are archives opened that are there
 };
 
 /// Gives a scene without a time step that of its archives, else automatic_time_step() for its

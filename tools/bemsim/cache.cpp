@@ -1,7 +1,6 @@
 #include "cache.hpp"
 
 #include "mesh/describe.hpp"
-#include "simulation/scene_preparation.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -32,20 +31,25 @@ bool needs_cache(const Scene& scene) {
 
 }  // namespace
 
-std::size_t prepare_archives(const Options& options, Scene& scene, ArchiveSource& source,
-                             const Progress& progress, Log& log) {
+PreparationOptions preparation_options(const Options& options, const Progress& progress, Log& log) {
   PreparationOptions preparation;
   preparation.program = version_text();
   preparation.memory = static_cast<double>(physical_memory());
   if (options.fps) preparation.frame_interval = 1 / *options.fps;
-  preparation.note = [&](const std::string& text) { log.info(text); };
-  preparation.warn = [&](const std::string& text) { log.warning(text); };
+  preparation.note = [&log](const std::string& text) { log.info(text); };
+  preparation.warn = [&log](const std::string& text) { log.warning(text); };
   preparation.progress = progress;
+  return preparation;
+}
+
+std::size_t prepare_archives(const Options& options, Scene& scene, ArchiveSource& source,
+                             const Progress& progress, Log& log) {
   const MissingArchives missing =
       options.action == Options::Action::check ? MissingArchives::list : MissingArchives::compute;
-  const std::size_t left =
-      needs_cache(scene) ? prepare_scene(scene, source, cache_of(options), missing, preparation)
-                         : 0;
+  const std::size_t left = needs_cache(scene)
+                               ? prepare_scene(scene, source, cache_of(options), missing,
+                                               preparation_options(options, progress, log))
+                               : 0;
   if (left > 0) log.info("--prepare computes what is missing; --check says more of the scene then");
   return left;
 }

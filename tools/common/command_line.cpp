@@ -65,6 +65,8 @@ std::string message_of(const CLI::App& app, const CLI::ParseError& e) {
   const CLI::Option* option =
       dynamic_cast<const CLI::ArgumentMismatch*>(&e) ? app.get_option_no_throw(name) : nullptr;
   if (!option) return text;
+  if (static_cast<int>(option->count()) > option->get_items_expected_max())
+    return name + " is given more than once";
   const int values = option->get_items_expected_min();
   return name + (values == 1 ? " needs a value" : " needs " + std::to_string(values) + " values");
 }
