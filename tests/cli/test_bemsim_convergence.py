@@ -111,7 +111,9 @@ class Convergence(SimulationCase):
         self.study("--coarser", 1, "--finer", 0)
         self.assertIsNone(self.result()["all"]["position"]["mesh"])
         self.assert_error(self.study(expect=2), "convergence.json", "--force")
-        self.study("--coarser", 2, "--finer", 0, "--force")
+        done = self.study("--coarser", 2, "--finer", 0, "--force", "--every", 17)
+        self.assertIn("info: frames are farther apart than the run is long, 16 steps: the motions are compared at 5 times",
+                      done.stderr)
         self.assertEqual(len(self.result()["runs"]), 3)
 
     def test_what_cannot_be_compared_is_refused(self):

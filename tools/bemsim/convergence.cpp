@@ -173,6 +173,12 @@ void Study::choose_levels(const Scene& scene, ArchiveSource& source) {
                                       "is shorter than a time step");
   const LevelRange times = possible_times(options_.levels, steps);
   times_ = study_times(steps, every(), times);
+  if (every() > steps)
+    log_.info("frames are farther apart than the run is long, " +
+              count_text(static_cast<std::size_t>(steps), "step") +
+              ": the motions are compared at " +
+              count_text(static_cast<std::size_t>(times_.count + 1), "time") +
+              " in their place (--every, --fps, \"every\")");
   levels_ = study_levels(
       total == 0 ? LevelRange{0, 0} : possible_meshes(options_.levels, least, total), times);
 }

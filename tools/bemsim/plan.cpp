@@ -43,6 +43,10 @@ void apply_options(const Options& o, Plan& plan) {
         "--fps asks for more frames than there are steps: every step is "
         "written, " +
         to_text(1 / scene.time_step) + " per second");
+  if (plan.steps > 0 && plan.frames() == 1)
+    plan.notes.push_back("frames are farther apart than the run is long, " +
+                         count_text(static_cast<std::size_t>(plan.steps), "step") +
+                         ": only the start is written (--every, --fps, \"every\")");
 }
 
 PlannedBody plan_body(const Scene& scene, const BodySpec& spec, ArchiveSource& source) {
