@@ -161,9 +161,10 @@ void ScenePreparation::choose_time_step() {
       return crossing_time(simulated(*body.source, inputs_[b]), inputs_[b]);
     }));
   }
-  scene_.time_step = automatic_time_step(times, options_.frame_interval);
-  options_.note("the time step is " + to_text(scene_.time_step) +
-                " s, in eight of which a shear wave crosses the body that it crosses fastest");
+  const AutomaticTimeStep step = automatic_time_step(times, options_.frame_interval);
+  scene_.time_step = step.seconds;
+  for (BodyInputs& inputs : inputs_) inputs.automatic_time_step = true;
+  options_.note("the time step is " + to_text(step.seconds) + " s" + step.reason);
 }
 
 /// Everything that the bytes of an archive depend on.
