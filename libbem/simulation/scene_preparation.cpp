@@ -63,6 +63,7 @@ class ScenePreparation {
       else
         compare(body);
     }
+    if (!listed_.empty() && missing_ == MissingArchives::list && options_.listed) list();
     return listed_.size();
   }
 
@@ -79,6 +80,7 @@ class ScenePreparation {
   BodyPlan plan(const BodySpec& body, const BodyInputs& inputs);
   void compute(const BodySpec& body, const BodyInputs& inputs);
   void compare(const BodySpec& body);
+  void list();
 
   Scene& scene_;
   ArchiveSource& source_;
@@ -86,6 +88,7 @@ class ScenePreparation {
   MissingArchives missing_;
   const PreparationOptions& options_;
   std::set<std::string> listed_;                    ///< paths of archives that are missing
+  std::map<std::string, BodyGeometry> planned_;     ///< of these, by path
   std::vector<BodyInputs> inputs_;                  ///< by body; empty ones without a source
   std::map<std::string, MeshInput> meshes_;         ///< by path
   std::map<std::string, SimulatedMesh> simulated_;  ///< by path and what is done to it
@@ -196,7 +199,8 @@ void ScenePreparation::provide(BodySpec& body, BodyInputs& inputs) {
   }
   if (missing_ == MissingArchives::list && !cache_.has(path)) {
     if (listed_.insert(path).second)
-      at_place_of_input(body.source->mesh.location, [&] { plan(body, inputs); });
+      at_place_of_input(body.source->mesh.location,
+                        [&] { planned_.emplace(path, plan(body, inputs).geometry); });
     return;
   }
   at_place_of_input(body.source->mesh.location, [&] {
@@ -242,6 +246,16 @@ void ScenePreparation::compute(const BodySpec& body, const BodyInputs& inputs) {
   const Provenance provenance = provenance_of(inputs, plan, options_.program);
   const BodyModel model = precompute(std::move(plan.geometry), plan.options, options_.progress);
   write_archive(body.archive.resolved, model, provenance, true, options_.progress);
+}
+
+void ScenePreparation::list() {
+  std::vector<const BodyGeometry*> geometries;
+  for (const BodySpec& body : scene_.bodies) {
+    const auto planned = planned_.find(body.archive.resolved);
+    geometries.push_back(planned == planned_.end() ? &source_.open(body.archive).geometry()
+                                                   : &planned->second);
+  }
+  options_.listed(geometries);
 }
 
 void ScenePreparation::compare(const BodySpec& body) {

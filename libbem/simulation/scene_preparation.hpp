@@ -17,6 +17,8 @@ struct PreparationOptions {
   double memory = 0;    ///< that matrices may take while they are computed [bytes]; 0: any
   std::optional<double> frame_interval;  ///< [s], of which an automatic time step is a whole part
   std::function<void(const std::string&)> note, warn;
+  /// Gets the geometries by body where MissingArchives::list finds archives missing.
+  std::function<void(const std::vector<const BodyGeometry*>&)> listed;
   Progress progress;
 };
 

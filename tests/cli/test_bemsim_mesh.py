@@ -1,6 +1,7 @@
 """bemsim with bodies that are given by mesh and material: the cache, changed inputs, automatic time steps."""
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -108,12 +109,19 @@ class Cache(MeshCase):
         self.assertFalse((self.folder / "out").exists())
 
     def test_check_computes_nothing(self):
+        self.body["place"] = {"center": [1, 0, 0]}
+        self.scene["obstacles"] = [{"name": "floor", "plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}}]
         done = program("bemsim", self.written_scene(), "--check", "--cache", self.folder / "cache")
         self.assertIn("ball.obj: the matrices are not computed yet: 42 nodes", done.stderr)
         self.assertEqual(self.cached(), [])
+        self.assertIn("warning: ", done.stderr)
+        self.assertIn("obstacles touch nothing in a scene without contact", done.stderr)
+        place = re.search('body "ball"\n(  mesh coordinates .*\n  placed at +.0.9.*\n)', done.stdout)
+        self.assertTrue(place, done.stdout)
         self.run_scene()
         done = program("bemsim", self.written_scene(), "--check", "--cache", self.folder / "cache")
         self.assertIn("mesh ball.obj (bdf1", done.stdout)
+        self.assertIn(place[1], done.stdout)
 
     def test_info_and_clean(self):
         self.run_scene()

@@ -1,6 +1,8 @@
 #include "cache.hpp"
 
 #include "mesh/describe.hpp"
+#include "plan.hpp"
+#include "simulation/placement.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -46,10 +48,19 @@ std::size_t prepare_archives(const Options& options, Scene& scene, ArchiveSource
                              const Progress& progress, Log& log) {
   const MissingArchives missing =
       options.action == Options::Action::check ? MissingArchives::list : MissingArchives::compute;
-  const std::size_t left = needs_cache(scene)
-                               ? prepare_scene(scene, source, cache_of(options), missing,
-                                               preparation_options(options, progress, log))
-                               : 0;
+  PreparationOptions preparation = preparation_options(options, progress, log);
+  preparation.listed = [&](const std::vector<const BodyGeometry*>& geometries) {
+    for (const std::string& warning : warnings_of_scene(scene)) log.warning(warning);
+    place_bodies(scene, geometries, source);
+    for (std::size_t b = 0; b < geometries.size(); ++b) {
+      std::cout << "body " << in_quotes(scene.bodies[b].name) << "\n";
+      print_place(std::cout, scene.bodies[b], *geometries[b]);
+    }
+    std::cout << std::flush;
+  };
+  const std::size_t left =
+      needs_cache(scene) ? prepare_scene(scene, source, cache_of(options), missing, preparation)
+                         : 0;
   if (left > 0) log.info("--prepare computes what is missing; --check says more of the scene then");
   return left;
 }
