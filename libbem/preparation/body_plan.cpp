@@ -110,7 +110,8 @@ void Planner::tell_large_body() {
   constexpr double kLarge = 10;  // [m]
   if (inputs_.mesh_scale != 1 || plan_.geometry.extent < kLarge) return;
   plan_.notes.push_back(inputs_.mesh + ": the body is " + rounded_text(plan_.geometry.extent, 3) +
-                        " m large; a mesh in millimetres needs " + text("mesh-scale", "0.001"));
+                        " m large; a mesh in millimetres needs " + name("mesh-scale") +
+                        (style_ == SettingStyle::option ? " 0.001" : ": 0.001"));
 }
 
 void Planner::settle_method(const Surface& surface) {

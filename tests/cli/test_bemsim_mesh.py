@@ -123,6 +123,17 @@ class Cache(MeshCase):
         self.assertIn("mesh ball.obj (bdf1", done.stdout)
         self.assertIn(place[1], done.stdout)
 
+    def test_check_tells_of_meshes_in_millimetres(self):
+        lines = [line.split() for line in (self.folder / "ball.obj").open()]
+        (self.folder / "ball.obj").write_text("".join(
+            " ".join([w[0], *(str(1000 * float(x)) for x in w[1:])] if w and w[0] == "v" else w) + "\n" for w in lines))
+        check = lambda: program("bemsim", self.written_scene(), "--check", "--cache", self.folder / "cache").stderr
+        self.scene["time_step"] = 1
+        self.assertIn('info: ball.obj: the body is 200 m large; a mesh in millimetres needs "mesh_scale": 0.001\n',
+                      check().replace(f"{self.folder}/", ""))
+        self.body["mesh_scale"] = 0.001
+        self.assertNotIn("millimetres", check())
+
     def test_info_and_clean(self):
         self.run_scene()
         info = program("bemsim", "--cache-info", "--cache", self.folder / "cache").stdout
