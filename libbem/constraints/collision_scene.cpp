@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 namespace bem {
 namespace {
@@ -43,6 +44,7 @@ CollisionScene::CollisionScene(const Scene& scene, const std::vector<Body>& bodi
   for (const ObstaclePart& o : obstacles_) friction_.push_back(o.spec->friction);
   for (const ObstacleSpec& o : scene.obstacles)
     if (std::holds_alternative<PlaneObstacle>(o.shape)) friction_.push_back(o.friction);
+  in_scene_ = places_in_scene();
   start_.resize(bodies.size() + obstacles_.size());
   end_.resize(start_.size());
 }
@@ -148,6 +150,19 @@ const std::string& CollisionScene::name(std::size_t surface) const {
                                   : obstacles_[surface - bodies_.size()].spec->name;
 }
 
+std::vector<int> CollisionScene::places_in_scene() const {
+  const int bodies = static_cast<int>(bodies_.size());
+  std::vector<int> out(bodies);
+  std::iota(out.begin(), out.end(), 0);
+  const auto add = [&](const ObstacleSpec& o) {
+    out.push_back(bodies + static_cast<int>(&o - scene_.obstacles.data()));
+  };
+  for (const ObstaclePart& part : obstacles_) add(*part.spec);
+  for (const ObstacleSpec& o : scene_.obstacles)
+    if (std::holds_alternative<PlaneObstacle>(o.shape)) add(o);
+  return out;
+}
+
 std::vector<CollisionScene::Overlap> CollisionScene::overlaps() {
   begin_step(0, 0);
   std::vector<Overlap> out;
@@ -187,6 +202,8 @@ ContactPair CollisionScene::pair_of(const Contact& contact) const {
     pair.body_b = contact.b.surface;
   else
     pair.obstacle_b = contact.point;
+  pair.in_scene_a = in_scene_[contact.a.surface];
+  pair.in_scene_b = in_scene_[contact.b.surface];
   pair.friction = combine(scene_.contact.friction_combine, friction_[contact.a.surface],
                           friction_[contact.b.surface]);
   return pair;

@@ -46,6 +46,7 @@ class CollisionScene {
   CollisionDetector make_detector(const std::vector<std::pair<int, int>>& joined_bodies) const;
   const std::vector<Triangle>& triangles(std::size_t surface) const;
   const std::string& name(std::size_t surface) const;
+  std::vector<int> places_in_scene() const;
 
   /// The solid parts of an obstacle, or its sheets: surfaces of their own.
   struct ObstaclePart {
@@ -62,6 +63,7 @@ class CollisionScene {
   ContactTolerances tolerances_;
   std::vector<ObstaclePart> obstacles_;
   std::vector<double> friction_;                ///< by surface: bodies, parts of obstacles, planes
+  std::vector<int> in_scene_;                   ///< likewise: body, or obstacle after them
   std::vector<std::vector<Vec3>> start_, end_;  ///< by surface
   std::vector<ContactKey> pressed_;  ///< broken ones that are deeper than what detection looks for
   double deepest_ = 0;               ///< of them [m]

@@ -9,7 +9,8 @@ namespace bem {
 /// A contact of the current step between surfaces; the surface of an obstacle has no body.
 struct ContactPair {
   Contact contact;
-  int body_a = -1, body_b = -1;    ///< -1: an obstacle
+  int body_a = -1, body_b = -1;          ///< -1: an obstacle
+  int in_scene_a = -1, in_scene_b = -1;  ///< bodies by their order in the scene, then obstacles
   Vec3 obstacle_a = Vec3::Zero();  ///< place of a point of an obstacle at the end of the step [m]
   Vec3 obstacle_b = Vec3::Zero();
   double friction = 0;

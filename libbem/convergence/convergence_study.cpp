@@ -26,8 +26,15 @@ MatrixXd products_of(const std::vector<StudyRun>& runs, std::size_t body, Field 
   return differences.transpose() * differences;
 }
 
-double square_of(const StudyRun& run, std::size_t body, Field field) {
-  return vector_of(run.motions[body].*field).squaredNorm();
+/// Over several bodies.
+double root_mean_square(const StudyRun& run, const std::vector<std::size_t>& bodies, Field field) {
+  double sum = 0;
+  for (std::size_t b : bodies) sum += vector_of(run.motions[b].*field).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(bodies.size()));
+}
+
+double beyond(double rounding, double value) {
+  return value > rounding ? value : 0;
 }
 
 /// One direction in which levels differ.
@@ -84,8 +91,9 @@ class Evaluation {
             quantity(bodies, &BodyMotion::deformation, &BodyMotion::deformation)};
   }
   QuantityResult quantity(const Bodies& bodies, Field field, Field size) const;
+  double most(const Bodies& bodies, Field field) const;
   std::optional<SeriesResult> result_of(const Series& series, const MatrixXd& products,
-                                        double order) const;
+                                        double order, double rounding) const;
   VectorXd limit(const SeriesResult& series) const;
   VectorXd unit(std::size_t run) const {
     return VectorXd::Unit(static_cast<Eigen::Index>(runs_.size()), static_cast<Eigen::Index>(run));
@@ -99,24 +107,30 @@ class Evaluation {
 
 QuantityResult Evaluation::quantity(const Bodies& bodies, Field field, Field size) const {
   const auto n = static_cast<Eigen::Index>(runs_.size());
-  const auto count = static_cast<double>(bodies.size());
+  constexpr double kRounding = 1e-12;
+  const double rounding = kRounding * most(bodies, &BodyMotion::position);
   QuantityResult out;
   MatrixXd products = MatrixXd::Zero(n, n);
-  for (std::size_t b : bodies) {
-    products += products_of(runs_, b, field) / count;
-    out.size += square_of(runs_[finest_], b, size) / count;
-  }
-  out.size = std::sqrt(out.size);
-  out.mesh = result_of(mesh_, products, kExpectedMeshOrder);
-  out.time = result_of(time_, products, time_order_);
+  for (std::size_t b : bodies)
+    products += products_of(runs_, b, field) / static_cast<double>(bodies.size());
+  if (most(bodies, size) > rounding) out.size = root_mean_square(runs_[finest_], bodies, size);
+  out.mesh = result_of(mesh_, products, kExpectedMeshOrder, rounding);
+  out.time = result_of(time_, products, time_order_, rounding);
   VectorXd limit = unit(finest_);
   for (const auto* series : {&out.mesh, &out.time})
     if (*series) limit += this->limit(**series) - unit((*series)->runs.back());
   for (std::size_t k = 0; k < runs_.size(); ++k) {
-    out.from_finest.push_back(norm_of(unit(finest_) - unit(k), products));
-    out.error.push_back(norm_of(limit - unit(k), products));
+    out.from_finest.push_back(beyond(rounding, norm_of(unit(finest_) - unit(k), products)));
+    out.error.push_back(beyond(rounding, norm_of(limit - unit(k), products)));
   }
   return out;
+}
+
+/// The largest root mean square of all runs.
+double Evaluation::most(const Bodies& bodies, Field field) const {
+  double most = 0;
+  for (const StudyRun& run : runs_) most = std::max(most, root_mean_square(run, bodies, field));
+  return most;
 }
 
 /// The limit of a series by all runs.
@@ -128,7 +142,7 @@ VectorXd Evaluation::limit(const SeriesResult& series) const {
 }
 
 std::optional<SeriesResult> Evaluation::result_of(const Series& series, const MatrixXd& products,
-                                                  double order) const {
+                                                  double order, double rounding) const {
   const std::size_t n = series.runs.size();
   if (n < 2) return std::nullopt;
   MatrixXd own(n, n);
@@ -137,8 +151,11 @@ std::optional<SeriesResult> Evaluation::result_of(const Series& series, const Ma
       own(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = products(
           static_cast<Eigen::Index>(series.runs[i]), static_cast<Eigen::Index>(series.runs[j]));
   SeriesResult out;
-  out.trend = find_trend(series.sizes, own, order);
   out.runs = series.runs;
+  out.same = own.diagonal().maxCoeff() <= rounding * rounding;  // distances from the scene's run
+  if (out.same) own.setZero();
+  out.trend = find_trend(series.sizes, own, order);
+  if (out.same) return out;
   out.scene_error = norm_of(limit(out) - unit(0), products);
   return out;
 }

@@ -33,11 +33,12 @@ struct SeriesResult {
   Trend trend;
   std::vector<std::size_t> runs;  ///< coarse ones first
   double scene_error = 0;         ///< of the scene's own run
+  bool same = false;              ///< all runs agree to rounding: there is no trend, and no error
 };
 
 /// A quantity in all runs. Differences and errors are root mean squares over surface and time [m].
 struct QuantityResult {
-  double size = 0;                         ///< of the quantity itself, in the finest run
+  double size = 0;  ///< of the quantity itself, in the finest run; 0: it is rounding in all runs
   std::optional<SeriesResult> mesh, time;  ///< without levels on one side: none
   std::vector<double> from_finest;         ///< by run: difference from the finest run
   /// By run: difference from the limit of meshes and time steps together, which adds what is left
@@ -46,6 +47,7 @@ struct QuantityResult {
   bool converges() const {
     return (!mesh || mesh->trend.converges) && (!time || time->trend.converges);
   }
+  bool same() const { return (!mesh || mesh->same) && (!time || time->same); }
 };
 
 /// Of a body, or with the mean over bodies of all.
@@ -65,7 +67,8 @@ inline constexpr double kExpectedMeshOrder = 2;
 /// where a scheme has no more, else 2.
 double expected_time_order(const Scene& scene);
 
-/// Compares the runs of study_levels(), in its order.
+/// Compares the runs of study_levels(), in its order. Sizes and differences below a part of 1e-12
+/// of the distances of the points from the origin are rounding, and come out as 0.
 StudyResult evaluate_study(const std::vector<StudyRun>& runs, double expected_time_order);
 
 }  // namespace bem

@@ -100,6 +100,42 @@ std::vector<std::pair<double, std::string>> Axis::ticks() const {
   return out;
 }
 
+/// Finds places for labels, in the order in which they come, where they overlap no other one.
+class LabelPlaces {
+ public:
+  /// The base line of a label of which one end is at `x`: `y`, or as few lines as possible below it
+  /// or above it. Where all is full: `y`.
+  double base_line(double x, double y, const std::string& label, bool ends_there, bool below) {
+    constexpr double kCharacter = 6.2, kLine = 12;
+    constexpr int kMostLines = 12;
+    const double width = kCharacter * static_cast<double>(label.size());
+    const double left = ends_there ? x - width : x;
+    for (int k = 0; k <= 2 * kMostLines; ++k) {
+      const double lines = (k % 2 == 1 ? 1 : -1) * ((k + 1) / 2) * (below ? 1.0 : -1.0);
+      const double at = y + kLine * lines;
+      const Box box{left, left + width, at - kLine, at};
+      if (at < kTop + kLine || at > kHeight - kBottom || is_taken(box)) continue;
+      taken_.push_back(box);
+      return at;
+    }
+    return y;
+  }
+
+ private:
+  struct Box {
+    double left, right, top, bottom;
+  };
+
+  bool is_taken(const Box& box) const {
+    return std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) {
+      return box.left < other.right && other.left < box.right && box.top < other.bottom &&
+             other.top < box.bottom;
+    });
+  }
+
+  std::vector<Box> taken_;
+};
+
 class Drawing {
  public:
   explicit Drawing(const LogPlot& plot)
@@ -144,7 +180,7 @@ class Drawing {
     out_ += text_at(kLeft, 20, plot_.title, " font-size=\"14\"");
   }
 
-  /// Labels are above their points or below them.
+  /// Labels are above their points or below them, as near as there is room.
   void draw(const PlotSeries& series, bool below) {
     std::string path;
     for (const PlotSeries::Point& p : series.points)
@@ -156,11 +192,17 @@ class Drawing {
       const double x = x_.place(p.x), y = y_.place(p.y);
       out_ += "<circle cx=\"" + coordinate(x) + "\" cy=\"" + coordinate(y) + "\" r=\"" +
               (p.marked ? "6" : "3.5") + "\" fill=\"" + series.colour + "\"/>\n";
-      const bool turns = x > kWidth - 130;
-      out_ += text_at(x + (turns ? -9 : 9), y + (below ? 15 : -6), p.label,
-                      std::string(" font-size=\"11\" text-anchor=\"") + (turns ? "end" : "start") +
-                          "\" fill=\"" + series.colour + "\"");
+      if (!p.label.empty()) label(p, series.colour, below);
     }
+  }
+
+  void label(const PlotSeries::Point& p, const std::string& colour, bool below) {
+    const bool turns = x_.place(p.x) > kWidth - 130;
+    const double x = x_.place(p.x) + (turns ? -9 : 9);
+    const double y = labels_.base_line(x, y_.place(p.y) + (below ? 15 : -6), p.label, turns, below);
+    out_ += text_at(x, y, p.label,
+                    std::string(" font-size=\"11\" text-anchor=\"") + (turns ? "end" : "start") +
+                        "\" fill=\"" + colour + "\"");
   }
 
   void legend() {
@@ -174,6 +216,7 @@ class Drawing {
 
   const LogPlot& plot_;
   Axis x_, y_;
+  LabelPlaces labels_;
   std::string out_;
 };
 

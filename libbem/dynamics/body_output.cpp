@@ -2,6 +2,21 @@
 
 namespace bem {
 
+/// Values of nodes at the vertices of the input mesh. Vertices that no triangle uses go with the
+/// frame: `loose` has their values by their places from the centre of mass.
+template <class Loose>
+std::vector<Vec3> BodyOutput::at_vertices(const std::vector<Vec3>& nodes,
+                                          const Loose& loose) const {
+  const BodyGeometry& g = body_.model().geometry;
+  std::vector<Vec3> out;
+  out.reserve(g.input.vertices.size());
+  for (std::size_t v = 0; v < g.input.vertices.size(); ++v) {
+    const int node = g.node_of_vertex[v];
+    out.push_back(node < 0 ? loose(g.input.vertices[v] - g.mass.centre) : nodes[node]);
+  }
+  return out;
+}
+
 Impulses BodyOutput::impulses() const {
   Impulses out;
   if (!body_.has_inertia()) return out;
@@ -28,41 +43,62 @@ std::vector<Vec3> BodyOutput::node_positions() const {
 }
 
 std::vector<Vec3> BodyOutput::positions() const {
-  const BodyGeometry& g = body_.model().geometry;
   const RigidFrame::Stages now = body_.frame().current();
-  const std::vector<Vec3> nodes = node_positions();
+  return at_vertices(node_positions(),
+                     [&](const Vec3& x) { return body_.frame().place(now, 0, x, Vec3::Zero()); });
+}
+
+std::vector<Vec3> BodyOutput::node_velocities() const {
+  const std::vector<Vec3>& x = body_.model().geometry.nodes.vertices;
+  const Eigen::VectorXd rates =
+      body_.elastic() ? body_.elastic()->velocity()
+                      : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * x.size()));
   std::vector<Vec3> out;
-  out.reserve(g.input.vertices.size());
-  for (std::size_t v = 0; v < g.input.vertices.size(); ++v) {
-    const int node = g.node_of_vertex[v];
-    if (node < 0)  // no triangle uses it: it goes with the frame
-      out.push_back(body_.frame().place(now, 0, g.input.vertices[v] - g.mass.centre, Vec3::Zero()));
-    else
-      out.push_back(nodes[node]);
+  out.reserve(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(3 * i);
+    out.push_back(
+        body_.frame().velocity_at(x[i], body_.displacement().segment<3>(at), rates.segment<3>(at)));
   }
   return out;
 }
 
-std::vector<Vec3> BodyOutput::node_tractions() const {
-  const BodyGeometry& g = body_.model().geometry;
+std::vector<Vec3> BodyOutput::velocities() const {
+  return at_vertices(node_velocities(), [&](const Vec3& x) {
+    return body_.frame().velocity_at(x, Vec3::Zero(), Vec3::Zero());
+  });
+}
+
+/// In body axes.
+Eigen::Matrix3Xd BodyOutput::nodal_tractions() const {
   Eigen::Matrix3Xd nodal =
-      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(g.nodes.vertices.size()));
+      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(body_.model().nodes()));
   for (const PrescribedLoad& p : body_.loads())
     p.load.add_nodal_tractions(p.stages.col(p.stages.cols() - 1), nodal);
   if (!body_.is_rigid() && !body_.step().frame.rotation.empty())
     body_.elastic()->add_nodal_tractions(body_.step().nodal_forces(), nodal);
+  return nodal;
+}
+
+std::vector<Vec3> BodyOutput::node_tractions() const {
+  const Eigen::Matrix3Xd nodal = nodal_tractions();
   std::vector<Vec3> out;
   for (Eigen::Index node = 0; node < nodal.cols(); ++node)
     out.emplace_back(body_.frame().rotation() * nodal.col(node));
   return out;
 }
 
+StressField BodyOutput::node_stress(const SurfaceStress& surface) const {
+  if (body_.is_rigid())
+    return StressField::Zero(6, static_cast<Eigen::Index>(body_.model().nodes()));
+  const double retardation = body_.model().discretisation.damping.time;
+  Eigen::VectorXd strained = body_.displacement();
+  if (retardation > 0) strained += retardation * body_.elastic()->velocity();
+  return rotated(body_.frame().rotation(), surface.at_nodes(strained, nodal_tractions()));
+}
+
 std::vector<Vec3> BodyOutput::tractions() const {
-  const std::vector<Vec3> nodal = node_tractions();
-  std::vector<Vec3> out;
-  for (int node : body_.model().geometry.node_of_vertex)
-    out.push_back(node < 0 ? Vec3(Vec3::Zero()) : nodal[node]);
-  return out;
+  return at_vertices(node_tractions(), [](const Vec3&) { return Vec3(Vec3::Zero()); });
 }
 
 }  // namespace bem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dynamics/body.hpp"
+#include "dynamics/surface_stress.hpp"
 
 namespace bem {
 
@@ -12,15 +13,24 @@ class BodyOutput {
   /// World positions [m] of the nodes between two steps, and of the input mesh's vertices.
   std::vector<Vec3> node_positions() const;
   std::vector<Vec3> positions() const;
+  /// World velocities [m/s] at the end of the last step, of the nodes and of the vertices.
+  std::vector<Vec3> node_velocities() const;
+  std::vector<Vec3> velocities() const;
   /// World tractions [Pa] at the input mesh's vertices: prescribed loads (averaged over the
   /// triangles around a vertex) and the forces of constraints.
   std::vector<Vec3> tractions() const;
   /// The same at the nodes.
   std::vector<Vec3> node_tractions() const;
+  /// Stress tensors [Pa] at the nodes, world axes. `surface`: of the body's nodes and material.
+  StressField node_stress(const SurfaceStress& surface) const;
   /// Impulses of gravity, loads and window in the step that Body::update() has computed.
   Impulses impulses() const;
 
  private:
+  Eigen::Matrix3Xd nodal_tractions() const;
+  template <class Loose>
+  std::vector<Vec3> at_vertices(const std::vector<Vec3>& nodes, const Loose& loose) const;
+
   const Body& body_;
 };
 

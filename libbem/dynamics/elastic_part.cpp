@@ -30,7 +30,9 @@ ElasticPart::ElasticPart(const ElasticSystem& system, const NodalTractions* trac
       corners_(std::move(corners)),
       centrifugal_(std::move(centrifugal)),
       correction_(std::move(correction)),
-      offset_(system.scheme(), time_step_of_offset(system.model())) {
+      offset_(system.scheme(), time_step_of_offset(system.model())),
+      rate_(system.scheme(), system.model().discretisation.dt,
+            static_cast<Eigen::Index>(3 * system.model().nodes())) {
   motion_history_ = system.make_motion_history();
   acceleration_history_ = system.make_history(6);
   if (corners_) corner_history_ = system.make_history(corners_->inputs());
@@ -318,8 +320,14 @@ Eigen::VectorXd ElasticPart::end_displacement(const std::vector<PrescribedLoad>&
     return end_.displacements.col(0) +
            system_.projection().response(0).real() * (end_.predicted - end_.accelerations.col(0));
   }
-  const Vector6 offset = offset_.stages(end_.differences).col(last);
-  Eigen::VectorXd u = end_.displacements.col(last);
+  return displacement_at(last, offset_.stages(end_.differences));
+}
+
+/// Of the step as last computed, with the frame offsets of its stages (6 x s).
+Eigen::VectorXd ElasticPart::displacement_at(Eigen::Index stage,
+                                             const Eigen::MatrixXd& offsets) const {
+  const Vector6 offset = offsets.col(stage);
+  Eigen::VectorXd u = end_.displacements.col(stage);
   const std::vector<Vec3>& x = system_.model().geometry.nodes.vertices;
   for (std::size_t i = 0; i < x.size(); ++i)
     u.segment<3>(static_cast<Eigen::Index>(3 * i)) +=
@@ -343,6 +351,12 @@ std::optional<ElasticPart::Corrected> ElasticPart::end_step() {
     corrected = correct();
     end_.displacements = corrected->displacement;
     end_.accelerations = corrected->acceleration;
+    rate_.push(end_.displacements);
+  } else {
+    Eigen::MatrixXd stages(end_.displacements.rows(), end_.displacements.cols());
+    const Eigen::MatrixXd offsets = offset_.stages(end_.differences);
+    for (Eigen::Index a = 0; a < stages.cols(); ++a) stages.col(a) = displacement_at(a, offsets);
+    rate_.push(stages);
   }
   motion_history_.push(system_.without_rounding(end_.displacements));
   acceleration_history_.push(end_.accelerations);

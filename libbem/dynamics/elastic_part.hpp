@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dynamics/corner_loads.hpp"
+#include "dynamics/displacement_rate.hpp"
 #include "dynamics/frame_offset.hpp"
 #include "dynamics/least_squares.hpp"
 #include "dynamics/nodal_forces.hpp"
@@ -81,12 +82,16 @@ class ElasticPart {
   };
   std::optional<Corrected> end_step();
 
+  /// How fast the displacements change at the end of the last step [m/s].
+  Eigen::VectorXd velocity() const { return rate_.value(); }
+
   /// Nodal tractions of forces at the end of the step are added [Pa, body axes].
   void add_nodal_tractions(const NodalForces& forces, Eigen::Matrix3Xd& tractions) const;
 
   /// Between two steps; compliances come again by themselves.
   void visit_state(StateArchive& state) {
-    state(offset_, motion_history_, acceleration_history_, corner_history_, centrifugal_history_);
+    state(offset_, rate_, motion_history_, acceleration_history_, corner_history_,
+          centrifugal_history_);
     traction_history_.visit_state(state, tractions_);
     state(solution_memory_);
     state.check(solution_memory_.fits(system_.scheme().initial_components().size(),
@@ -95,6 +100,7 @@ class ElasticPart {
 
  private:
   Corrected correct() const;
+  Eigen::VectorXd displacement_at(Eigen::Index stage, const Eigen::MatrixXd& offsets) const;
   template <class F>
   void for_each_input(const std::vector<PrescribedLoad>& loads, const F& f) const;
   NodalLoad nodal_load(const NodalForces& forces) const;
@@ -128,6 +134,7 @@ class ElasticPart {
   std::shared_ptr<const LeastSquaresCorrection> correction_;  ///< null: projection
   FrameOffset offset_;
   FrameOffset::Leak leak_;
+  DisplacementRate rate_;
   MotionHistory motion_history_;
   LagHistory acceleration_history_, corner_history_, centrifugal_history_;
   Eigen::MatrixXd centrifugal_stages_;

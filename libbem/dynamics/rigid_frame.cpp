@@ -194,6 +194,17 @@ Vec3 RigidFrame::impulse_of(const std::vector<Vec3>& forces) const {
   return sum;
 }
 
+Vec3 RigidFrame::angular_velocity() const {
+  const Mat3& r = stationary_ ? initial_rotation_ : state_.rotation;
+  return r * (inverse_inertia_ * (r.transpose() * state_.angular_momentum));
+}
+
+Vec3 RigidFrame::velocity_at(const Vec3& x, const Vec3& u, const Vec3& v) const {
+  const Mat3& r = stationary_ ? initial_rotation_ : state_.rotation;
+  const Vec3 arm = stationary_ ? x : x + u;
+  return velocity() + angular_velocity().cross(r * arm) + r * v;
+}
+
 Vec3 RigidFrame::momentum() const {
   Vec3 v = velocity();
   if (multistep_) v += 0.5 * theta_ * (state_.velocity - previous_.velocity);

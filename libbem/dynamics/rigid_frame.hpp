@@ -101,6 +101,11 @@ class RigidFrame {
   Vec3 translation() const;
   Vec3 velocity() const { return state_.velocity + time() * gravity_; }
   const Vec3& angular_momentum() const { return state_.angular_momentum; }
+  /// World axes [rad/s].
+  Vec3 angular_velocity() const;
+  /// World velocity of the point x (relative to the centre of mass) whose displacement u changes at
+  /// the rate v [m/s].
+  Vec3 velocity_at(const Vec3& x, const Vec3& u, const Vec3& v) const;
   double time() const { return static_cast<double>(step_) * dt_; }
 
  private:

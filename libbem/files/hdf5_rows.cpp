@@ -24,7 +24,9 @@ Hdf5Rows::Hdf5Rows(Hdf5File& file, std::string path)
       static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
   if (!dims.empty()) H5Sget_simple_extent_dims(space.get(), dims.data(), nullptr);
   dims_.assign(dims.begin(), dims.end());
-  require(!dims_.empty() && H5Tget_class(type.get()) == H5T_FLOAT, "rows of numbers are appended");
+  const H5T_class_t kind = H5Tget_class(type.get());
+  require(!dims_.empty() && (kind == H5T_FLOAT || kind == H5T_INTEGER),
+          "rows of numbers are appended");
 }
 
 Hdf5Rows::Hdf5Rows(Hdf5Rows&& other) noexcept

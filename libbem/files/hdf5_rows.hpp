@@ -9,9 +9,9 @@
 
 namespace bem {
 
-/// A dataset of float64 that grows by rows and stays open: what is asked of the library for one
-/// more row does not depend on how many other datasets there are. To be destroyed before its file
-/// is closed; errors are those of the file.
+/// A dataset of numbers that grows by rows and stays open (an integer type takes what is whole):
+/// what is asked of the library for one more row does not depend on how many other datasets there
+/// are. To be destroyed before its file is closed; errors are those of the file.
 class Hdf5Rows {
  public:
   /// Opens a dataset of the file that was created extendible. Its rows so far stay.

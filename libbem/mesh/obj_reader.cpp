@@ -45,7 +45,8 @@ class ObjParser {
     std::size_t count = 0;
     for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word(), ++count)
       mesh_.corners.push_back(parse_corner(word));
-    if (count < 3) lines_.fail("a face needs at least three vertices");
+    if (count < 3)
+      lines_.fail("a face needs at least three vertices; delete this line, which has no area");
     mesh_.end_face();
     mesh_.lines.push_back(lines_.line());
   }

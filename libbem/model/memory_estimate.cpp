@@ -82,23 +82,37 @@ double compressed_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
                        steps * 2 * 9 * sizeof(float) * nodes * nodes / (1 + nodes / independent);
 }
 
+constexpr double kProgram = 4.5e7;  ///< what the program takes beside its matrices
+
+double bytes_of_entry(const PrecomputeOptions& o) {
+  return o.codec.codec->is_double() ? sizeof(double) : sizeof(float);
+}
+
+/// The rows of all matrices that are assembled before they are stored, with one more copy of the
+/// parts of lag 0, which are in double precision.
+double slab_bytes(const BodyGeometry& g, const PrecomputeOptions& o,
+                  const std::vector<Slab>& slabs) {
+  const Counts c = counts_of(o);
+  const double entry = bytes_of_entry(o);
+  double rows = 0;
+  for (const Slab& s : slabs) rows = std::max(rows, 3.0 * (s.row_end - s.row_begin));
+  return rows * 3.0 * static_cast<double>(g.nodes.vertices.size()) *
+         (c.kinds * (entry * c.lags + sizeof(double) * c.parts) + entry * c.parts);
+}
+
 double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o, double stored) {
   constexpr double kCopies = 2;  // of the numbers of a block while its bases are found
-  constexpr double kProgram = 3e7;
   constexpr double kTileNodes = 8;
   const Counts c = counts_of(o);
   const double n = 3.0 * static_cast<double>(g.nodes.vertices.size());
-  double slab_rows = 0, widest = 0;
-  for (const Slab& s : o.codec.codec->slabs(g.nodes.vertices)) {
-    slab_rows = std::max(slab_rows, 3.0 * (s.row_end - s.row_begin));
+  const std::vector<Slab> slabs = o.codec.codec->slabs(g.nodes.vertices);
+  double widest = 0;
+  for (const Slab& s : slabs)
     for (const NodeBlock& b : s.blocks) widest = std::max(widest, 9.0 * b.rows() * b.columns());
-  }
-  const double slab = slab_rows * n * c.kinds * (4 * c.lags + 8 * c.parts) +
-                      slab_rows * n * 4 * c.parts;  // one copy of parts of lag 0
   const double rows = kTileNodes * n * 5 * 4 * (c.lags + c.parts + 4);  // of the assembler
   const double work = thread_count() * (kCopies * 4 * widest * c.lags + rows);
   const double dense = o.inverse == InverseKind::dense ? initial_bytes(g, o) : 0;
-  return kProgram + stored + dense + slab + work + row_buffer_bytes(g, o);
+  return kProgram + stored + dense + slab_bytes(g, o, slabs) + work + row_buffer_bytes(g, o);
 }
 
 }  // namespace
@@ -121,12 +135,14 @@ double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, double stor
   if (o.kind == ModelKind::rigid) return 0;
   if (o.codec.codec->is_sampled()) return compressed_peak(g, o, stored);
   const Counts c = counts_of(o);
-  const double entry = o.codec.codec->is_double() ? sizeof(double) : sizeof(float);
+  const double entry = bytes_of_entry(o);
   // lag 0 is double while it is factorised; the stored copies replace it one by one
   const double lags = square(g) * entry * c.kinds * c.lags;
   const double initial = o.inverse == InverseKind::dense ? initial_bytes(g, o) * c.kinds : 0;
-  return std::max(lags + initial + square(g) * entry * c.parts + row_buffer_bytes(g, o), stored) +
-         small_bytes(g, o);
+  const double slab = slab_bytes(g, o, o.codec.codec->slabs(g.nodes.vertices));
+  return kProgram + small_bytes(g, o) +
+         std::max(lags + initial + square(g) * entry * c.parts + row_buffer_bytes(g, o) + slab,
+                  stored);
 }
 
 }  // namespace bem

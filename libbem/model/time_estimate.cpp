@@ -40,6 +40,8 @@ double reference_seconds(double nodes, const Discretisation& d, const Quadrature
 
 /// How many times slower all threads of this machine are, by the matrices of a small body, whose
 /// quadrature and whose nodes count as those of others.
+/// T: what the codec stores.
+template <class T>
 double slowness(const PrecomputeOptions& options) {
   constexpr double kCached = 0.82;  // of the time: all of it stays in the cache
   BodyModel model;
@@ -50,8 +52,8 @@ double slowness(const PrecomputeOptions& options) {
   d.dt = model.geometry.extent / d.material.shear_speed();
   const int nodes = static_cast<int>(model.nodes());
   const auto measured = [&] {
-    const auto assembler = make_slab_assembler<float>(model, assembly_precision(options), false);
-    MatrixSlab<float> slab;
+    const auto assembler = make_slab_assembler<T>(model, assembly_precision(options), false);
+    MatrixSlab<T> slab;
     return seconds_of([&] { assembler->assemble(0, nodes, slab); });
   };
   const double seconds = std::min(measured(), measured()),  // the first time allocates
@@ -112,7 +114,9 @@ TimeEstimate estimate_time(const BodyGeometry& geometry, const PrecomputeOptions
                            const QuadratureCount& quadrature) {
   if (options.kind == ModelKind::rigid) return {};
   const auto nodes = static_cast<double>(geometry.nodes.vertices.size());
-  return {slowness(options) * reference_seconds(nodes, options.discretisation, quadrature),
+  const double slower =
+      options.codec.codec->is_double() ? slowness<double>(options) : slowness<float>(options);
+  return {slower * reference_seconds(nodes, options.discretisation, quadrature),
           seconds_of_inversions(nodes, options), seconds_of_growth(geometry, options)};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "output/frame.hpp"
+#include "output/trajectory_contents.hpp"
 
 #include <string>
 #include <vector>

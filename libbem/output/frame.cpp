@@ -3,40 +3,30 @@
 #include "base/error.hpp"
 #include "render/render_mesh.hpp"
 
-#include <set>
-
 namespace bem {
+namespace {
 
-void check_bodies(const std::vector<TrajectoryBody>& bodies) {
-  std::set<std::string> names;
-  for (const TrajectoryBody& body : bodies) {
-    require(!body.name.empty() && body.name != "." && body.name != ".." &&
-                body.name.find_first_of(std::string("/\0", 2)) == std::string::npos,
-            "the name of a body can be used for files");
-    require(names.insert(body.name).second, "no two bodies of a trajectory share a name");
-    for (const Triangle& t : body.triangles)
-      for (int v : t)
-        require(v >= 0 && static_cast<std::size_t>(v) < body.vertices,
-                "the triangles of a trajectory refer to its vertices");
-  }
+void check_body(const TrajectoryBody& body, const BodyFrame& frame) {
+  require(frame.positions.size() == body.vertices, "a frame holds the position of every vertex");
+  require(frame.fields.size() == body.fields.size(), "a frame holds every field");
+  for (std::size_t i = 0; i < body.fields.size(); ++i)
+    require(frame.fields[i].size() == body.vertices * body.fields[i].components,
+            "a frame holds the fields at every vertex");
+  std::size_t numbers = 0;
+  for (const FrameQuantity& q : body.series) numbers += q.components;
+  require(frame.series.size() == numbers, "a frame holds every series");
+  require(!body.render || frame.normals.size() == body.render->obj.normals().size(),
+          "a frame holds every normal of a render mesh");
 }
 
-void check_rest(const std::vector<TrajectoryBody>& bodies) {
-  for (const TrajectoryBody& body : bodies)
-    require(body.rest.size() == body.vertices, "a body brings every vertex of its mesh");
-}
+}  // namespace
 
-void check_frame(const std::vector<TrajectoryBody>& bodies, const Frame& frame) {
-  require(frame.bodies.size() == bodies.size(), "a frame holds every body");
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    require(frame.bodies[i].positions.size() == bodies[i].vertices,
-            "a frame holds the position of every vertex");
-    require(!bodies[i].tractions || frame.bodies[i].tractions.size() == bodies[i].vertices,
-            "a frame holds the traction of every vertex");
-    require(!bodies[i].render ||
-                frame.bodies[i].normals.size() == bodies[i].render->obj.normals().size(),
-            "a frame holds every normal of a render mesh");
-  }
+void check_frame(const TrajectoryContents& contents, const Frame& frame) {
+  require(frame.bodies.size() == contents.bodies.size(), "a frame holds every body");
+  require(contents.obstacles.empty() || frame.obstacles.size() == contents.obstacles.size(),
+          "a frame holds every obstacle");
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i)
+    check_body(contents.bodies[i], frame.bodies[i]);
 }
 
 }  // namespace bem

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "output/frame.hpp"
+#include "output/file_record.hpp"
+#include "output/trajectory_contents.hpp"
 
 #include <cstddef>
 #include <string>

@@ -16,18 +16,11 @@ constexpr std::size_t kBookkeeping = 1 << 16;      // of HDF5 for some frames, a
 constexpr std::size_t kBookkeepingEach = 1 << 12;  // and for every chunk that they begin
 constexpr std::size_t kMostWaiting = 1 << 25;      // bytes of frames
 
-static_assert(sizeof(Vec3) == 3 * sizeof(double), "vectors are stored without gaps");
-static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t), "triangles are stored without gaps");
-
 Hdf5File create_file(const std::string& path, const std::string& name) {
   Hdf5CreateOptions options;
   options.name = name;
   options.swmr = true;
   return Hdf5File::create(path, options);
-}
-
-std::string group(const TrajectoryBody& body) {
-  return "/bodies/" + body.name;
 }
 
 /// Chunk of a series whose frames have these extents. One frame of a part of the vertices: writing
@@ -44,72 +37,72 @@ Hdf5Dims chunk(const Hdf5Dims& extents) {
   return result;
 }
 
-/// The trajectory of an earlier run, which must hold some frames of the bodies.
-Hdf5File open_earlier(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+/// The trajectory of an earlier run, which must hold some frames of these contents.
+Hdf5File open_earlier(const std::string& directory, const std::vector<TrajectoryDataset>& datasets,
                       std::size_t frames) {
   const std::string path = directory + "/" + kTrajectoryFile;
-  {
-    const TrajectoryFile earlier(path, ErrorCode::invalid_input);  // checks what is in it
-    bool fits = earlier.times().size() >= frames && earlier.body_count() == bodies.size();
-    for (const TrajectoryBody& body : bodies)
-      fits = fits && earlier.vertices(body.name) == body.vertices &&
-             earlier.has_tractions(body.name) == body.tractions;
-    if (!fits)
-      throw Error(ErrorCode::invalid_input, path + ": does not hold the frames to go on from");
-  }
-  return Hdf5File::open_growing(path, ErrorCode::invalid_input);
+  // closed before the file is opened again: HDF5 would share one open file between the two
+  const std::size_t found = TrajectoryFile(path, ErrorCode::invalid_input).times().size();
+  Hdf5File file = Hdf5File::open_growing(path, ErrorCode::invalid_input);
+  const auto fits = [&](const TrajectoryDataset& d) {
+    if (!file.exists(d.path) || file.type(d.path) != d.type) return false;
+    Hdf5Dims dims = file.dims(d.path);
+    if (dims.empty() || (!d.by_contact && dims[0] < frames)) return false;
+    dims.erase(dims.begin());
+    return dims == d.extents;
+  };
+  if (found < frames || !std::all_of(datasets.begin(), datasets.end(), fits))
+    throw Error(ErrorCode::invalid_input, path + ": does not hold the frames to go on from");
+  return file;
 }
 
-Frame read_frame(const Hdf5File& file, const std::vector<TrajectoryBody>& bodies,
-                 std::size_t index) {
-  Frame frame;
-  frame.index = index;
-  file.read_rows("/time", index, 1, &frame.time);
-  for (const TrajectoryBody& b : bodies) {
-    BodyFrame& body = frame.bodies.emplace_back();
-    const std::string path = group(b);
-    const auto read = [&](const std::string& name, double* values) {
-      file.read_rows(path + name, index, 1, values);
-    };
-    body.positions.resize(b.vertices);
-    read("/positions", body.positions.data()->data());
-    read("/frame/translation", body.translation.data());
-    read("/frame/rotation", body.rotation.data());
-    body.rotation.transposeInPlace();  // rows are read as columns
-    if (!b.tractions) continue;
-    body.tractions.resize(b.vertices);
-    read("/tractions", body.tractions.data()->data());
-  }
-  return frame;
+/// For each of the first frames: how many rows it has by contact.
+std::vector<std::size_t> contact_counts(const Hdf5File& file, std::size_t frames) {
+  std::vector<std::size_t> out(frames, 0);
+  if (frames == 0 || !file.exists(kContactCountsPath)) return out;
+  std::vector<double> counts(frames);
+  file.read_rows(kContactCountsPath, 0, frames, counts.data());
+  for (std::size_t f = 0; f < frames; ++f) out[f] = static_cast<std::size_t>(counts[f]);
+  return out;
 }
 
-void add_numbers(FileRecord& record, const double* values, std::size_t count) {
-  record.add({reinterpret_cast<const char*>(values), count * sizeof(double)});
+/// Adds rows of a file to those of a dataset.
+void read_rows(const Hdf5File& file, const TrajectoryDataset& dataset, std::size_t first,
+               std::size_t count, std::vector<double>& to) {
+  const std::size_t begin = to.size();
+  to.resize(begin + count * dataset.width());
+  if (count > 0) file.read_rows(dataset.path, first, count, to.data() + begin);
 }
 
-/// The numbers of a frame, whatever HDF5 makes of them in the file.
-void add_frame(FileRecord& record, const Frame& frame) {
-  add_numbers(record, &frame.time, 1);
-  for (const BodyFrame& body : frame.bodies) {
-    add_numbers(record, body.positions.data()->data(), 3 * body.positions.size());
-    add_numbers(record, body.translation.data(), 3);
-    add_numbers(record, body.rotation.data(), 9);
-    add_numbers(record, body.tractions.data()->data(), 3 * body.tractions.size());
-  }
+void add_numbers(FileRecord& record, const std::vector<double>& values) {
+  record.add({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
 }
 
 }  // namespace
 
-Hdf5Trajectory::Hdf5Trajectory(const std::string& directory, std::vector<TrajectoryBody> bodies,
+/// Writes waiting rows up to one of them.
+void Hdf5Trajectory::Series::append(std::size_t end) {
+  const std::size_t width = layout.width();
+  dataset->append(end - stored, rows.data());
+  rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>((end - stored) * width));
+  stored = end;
+}
+
+/// What has been added to the rows belongs to a frame.
+void Hdf5Trajectory::Series::end_frame() {
+  ends.push_back(stored + rows.size() / layout.width());
+}
+
+Hdf5Trajectory::Hdf5Trajectory(const std::string& directory, TrajectoryContents contents,
                                std::size_t kept)
-    : bodies_((check_bodies(bodies), std::move(bodies))),
+    : contents_((check_contents(contents), std::move(contents))),
       temporary_(directory + "/" + kTrajectoryFile),
       file_(create_file(temporary_.path(), directory + "/" + kTrajectoryFile)),
       reserve_(temporary_.path(), file_.path()) {
   records_ = {{kTrajectoryFile, 0, {}}};
-  create_contents();
+  create_datasets();
   if (kept > 0) {
-    copy_frames(open_earlier(directory, bodies_, kept), kept);
+    copy_frames(open_earlier(directory, trajectory_datasets(contents_), kept), kept);
     file_.sync();  // a checkpoint counts on them
   }
   temporary_.publish();
@@ -120,12 +113,21 @@ bool Hdf5Trajectory::is_output(const std::filesystem::path& path) {
 }
 
 FileRecords Hdf5Trajectory::read_records(const std::string& directory,
-                                         const std::vector<TrajectoryBody>& bodies,
-                                         std::size_t frames) {
+                                         const TrajectoryContents& contents, std::size_t frames) {
   FileRecords records{{kTrajectoryFile, 0, {}}};
   if (frames == 0) return records;
-  const Hdf5File file = open_earlier(directory, bodies, frames);
-  for (std::size_t i = 0; i < frames; ++i) add_frame(records[0], read_frame(file, bodies, i));
+  const std::vector<TrajectoryDataset> datasets = trajectory_datasets(contents);
+  const Hdf5File file = open_earlier(directory, datasets, frames);
+  const std::vector<std::size_t> contacts = contact_counts(file, frames);
+  std::size_t contact = 0;
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (const TrajectoryDataset& d : datasets) {
+      std::vector<double> rows;
+      read_rows(file, d, d.by_contact ? contact : f, d.by_contact ? contacts[f] : 1, rows);
+      add_numbers(records[0], rows);
+    }
+    contact += contacts[f];
+  }
   return records;
 }
 
@@ -137,86 +139,58 @@ Hdf5Trajectory::~Hdf5Trajectory() {
   }
 }
 
-void Hdf5Trajectory::create_contents() {
-  file_.set_attribute("/", "format", "bem trajectory");
-  file_.set_attribute("/", "version", 1);
-  create_series("/time", {}, "s");
-  for (const TrajectoryBody& body : bodies_) {
-    const std::string path = group(body);
-    file_.write(path + "/faces", body.triangles.empty() ? nullptr : body.triangles[0].data(),
-                {body.triangles.size(), 3});
-    file_.set_attribute(path + "/faces", "units", "1");
-    create_series(path + "/positions", {body.vertices, 3}, "m");
-    create_series(path + "/frame/translation", {3}, "m");
-    create_series(path + "/frame/rotation", {3, 3}, "1");
-    if (body.tractions) create_series(path + "/tractions", {body.vertices, 3}, "Pa");
-    if (body.surface != TrajectorySurface::only)
-      file_.set_attribute(
-          path, kSurfaceAttribute,
-          body.surface == TrajectorySurface::render ? kRenderSurface : "simulation");
+void Hdf5Trajectory::create_datasets() {
+  write_contents(file_, contents_);
+  for (TrajectoryDataset& d : trajectory_datasets(contents_)) {
+    const Hdf5Dims chunks = chunk(d.extents);
+    std::size_t bytes = chunks[0] * sizeof(double);
+    for (std::size_t i = 0; i < d.extents.size(); ++i)
+      bytes *= (d.extents[i] + chunks[i + 1] - 1) / chunks[i + 1] * chunks[i + 1];
+    Hdf5Dims dims{0};
+    dims.insert(dims.end(), d.extents.begin(), d.extents.end());
+    file_.create_dataset(d.path, d.type, dims, {chunks, true});
+    file_.set_attribute(d.path, "units", d.units);
+    series_.push_back({std::move(d), chunks[0], bytes});
   }
-  std::rotate(series_.begin(), series_.begin() + 1, series_.end());
   file_.start_swmr();  // which hands all of it to the system
-  for (Series& s : series_) s.dataset.emplace(file_, s.path);
+  for (Series& s : series_) s.dataset.emplace(file_, s.layout.path);
 }
 
-void Hdf5Trajectory::create_series(const std::string& path, const Hdf5Dims& extents,
-                                   const char* units) {
-  Hdf5Dims dims{0};
-  dims.insert(dims.end(), extents.begin(), extents.end());
-  const Hdf5Dims chunks = chunk(extents);
-  Series s{path};
-  s.chunk_rows = chunks[0];
-  s.chunk_bytes = chunks[0] * sizeof(double);
-  for (std::size_t i = 0; i < extents.size(); ++i) {
-    s.width *= extents[i];
-    s.chunk_bytes *= (extents[i] + chunks[i + 1] - 1) / chunks[i + 1] * chunks[i + 1];
-  }
-  row_bytes_ += s.width * sizeof(double);
-  series_.push_back(std::move(s));
-  file_.create_dataset(path, Hdf5Type::float64, dims, {chunks, true});
-  file_.set_attribute(path, "units", units);
-}
-
-/// In parts as large as what waits for being written.
 void Hdf5Trajectory::copy_frames(const Hdf5File& earlier, std::size_t count) {
-  const std::size_t part = std::max<std::size_t>(1, kMostWaiting / row_bytes_);
-  while (frames_ < count) {
-    const std::size_t rows = std::min(part, count - frames_);
+  const std::vector<std::size_t> contacts = contact_counts(earlier, count);
+  for (; frames_ < count; ++frames_) {
     for (Series& s : series_) {
-      s.rows.resize(rows * s.width);
-      earlier.read_rows(s.path, frames_, rows, s.rows.data());
+      read_rows(earlier, s.layout, s.end(), s.layout.by_contact ? contacts[frames_] : 1, s.rows);
+      s.end_frame();
     }
-    frames_ += rows;
-    flush();
+    if (waiting_bytes() >= kMostWaiting) flush();
   }
+  flush();
 }
 
 void Hdf5Trajectory::write(const Frame& frame) {
-  check_frame(bodies_, frame);
+  check_frame(contents_, frame);
   require(frame.index == frames_, "frames are written in their order");
-  auto next = series_.begin();
-  const auto add = [&next](const double* values) {
-    next->rows.insert(next->rows.end(), values, values + next->width);
-    ++next;
-  };
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const BodyFrame& body = frame.bodies[i];
-    const Mat3 rows = body.rotation.transpose();  // stored by columns, as the file wants the rows
-    add(body.positions.data()->data());
-    add(body.translation.data());
-    add(rows.data());
-    if (bodies_[i].tractions) add(body.tractions.data()->data());
+  for (Series& s : series_) {
+    std::vector<double> rows;
+    s.layout.append(frame, rows);
+    add_numbers(records_[0], rows);
+    s.rows.insert(s.rows.end(), rows.begin(), rows.end());
+    s.end_frame();
   }
-  add(&frame.time);
   ++frames_;
-  add_frame(records_[0], frame);
   if (is_due()) flush();
+}
+
+std::size_t Hdf5Trajectory::waiting_bytes() const {
+  std::size_t bytes = 0;
+  for (const Series& s : series_) bytes += s.rows.size() * sizeof(double);
+  return bytes;
 }
 
 bool Hdf5Trajectory::is_due() const {
   constexpr std::size_t kFewBodies = 32;
-  return bodies_.size() <= kFewBodies || (frames_ - stored_) * row_bytes_ >= kMostWaiting ||
+  return contents_.bodies.size() <= kFewBodies || waiting_bytes() >= kMostWaiting ||
          Clock::now() >= due_;
 }
 
@@ -227,7 +201,10 @@ void Hdf5Trajectory::flush() {
   try {
     while (stored_ < frames_) store(frames_);
   } catch (const Error&) {
-    for (Series& s : series_) s.rows.clear();
+    for (Series& s : series_) {
+      s.rows.clear();
+      s.ends.clear();
+    }
     frames_ = stored_;
     throw;
   }
@@ -250,33 +227,30 @@ void Hdf5Trajectory::store(std::size_t end) {
   }
   store_together(end);
   for (Series& s : series_)
-    s.rows.erase(s.rows.begin(),
-                 s.rows.begin() + static_cast<std::ptrdiff_t>((end - stored_) * s.width));
+    s.ends.erase(s.ends.begin(), s.ends.begin() + static_cast<std::ptrdiff_t>(end - stored_));
   stored_ = end;
 }
 
 /// Pieces of the file are begun in the order of the frames, as if every frame were written alone.
 void Hdf5Trajectory::store_together(std::size_t end) {
-  const auto append = [&](Series& s, std::size_t frame) {
-    const std::size_t rows = std::min(end - frame, s.chunk_rows - frame % s.chunk_rows);
-    s.dataset->append(rows, s.rows.data() + (frame - stored_) * s.width);
-  };
-  for (std::size_t frame = stored_; frame < end; ++frame)
-    for (std::size_t i = 0; i + 1 < series_.size(); ++i)
-      if (frame == stored_ || frame % series_[i].chunk_rows == 0) append(series_[i], frame);
+  for (std::size_t frame = 0; frame < end - stored_; ++frame)
+    for (std::size_t i = 0; i + 1 < series_.size(); ++i) {
+      Series& s = series_[i];
+      if (s.stored >= s.ends[frame]) continue;
+      s.append(std::min(s.ends[end - stored_ - 1], s.pieces(s.ends[frame]) * s.chunk_rows));
+    }
   // Only then the times: who sees them finds the rest.
   file_.flush();
-  append(series_.back(), stored_);
+  series_.back().append(end);
   file_.flush();
 }
 
 /// What waiting frames up to `end` add to the file at most.
 std::size_t Hdf5Trajectory::bytes_of(std::size_t end) const {
   std::size_t bytes = kBookkeeping;
-  for (const Series& s : series_) {
-    const std::size_t begun = (stored_ + s.chunk_rows - 1) / s.chunk_rows;
-    bytes += ((end + s.chunk_rows - 1) / s.chunk_rows - begun) * (s.chunk_bytes + kBookkeepingEach);
-  }
+  for (const Series& s : series_)
+    bytes += (s.pieces(s.ends[end - stored_ - 1]) - s.pieces(s.stored)) *
+             (s.chunk_bytes + kBookkeepingEach);
   return bytes;
 }
 

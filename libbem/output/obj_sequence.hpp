@@ -1,8 +1,8 @@
 #pragma once
 
 #include "output/body_obj.hpp"
-#include "output/frame.hpp"
 #include "output/frame_files.hpp"
+#include "output/frame_writer.hpp"
 
 #include <filesystem>
 #include <string>
@@ -21,7 +21,7 @@ inline constexpr const char* kObjExtension = ".obj";
 class ObjSequence : public FrameWriter {
  public:
   /// Creates the folder in an existing directory. Throws ErrorCode::resources.
-  ObjSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+  ObjSequence(const std::string& directory, const TrajectoryContents& contents,
               std::size_t kept = 0);
 
   void write(const Frame& frame) override;
@@ -32,11 +32,11 @@ class ObjSequence : public FrameWriter {
   static bool is_output(const std::filesystem::path& path);
   static bool may_write(const std::filesystem::path& path) { return is_output(path); }
   /// Of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as many.
-  static FileRecords read_records(const std::string& directory,
-                                  const std::vector<TrajectoryBody>& bodies, std::size_t frames);
+  static FileRecords read_records(const std::string& directory, const TrajectoryContents& contents,
+                                  std::size_t frames);
 
  private:
-  std::vector<TrajectoryBody> bodies_;
+  TrajectoryContents contents_;
   FrameFiles files_;
   std::vector<BodyObj> texts_;  ///< by body
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "output/frame.hpp"
+#include "output/frame_writer.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -13,8 +13,6 @@ namespace bem {
 /// add one: a class derived from FrameWriter with a function read_records() like that below, and
 /// its row in output_formats.cpp.
 struct OutputFormat {
-  using Bodies = std::vector<TrajectoryBody>;
-
   const char* name;
   const char* folder;  ///< of its files in the output directory; "": that itself
   /// Is a path in the folder that of a file that a run has written? By its name.
@@ -22,11 +20,11 @@ struct OutputFormat {
   /// Could a run write such a file?
   bool (*may_write)(const std::filesystem::path& path);
   /// A writer for an existing directory; `kept` as FrameWriter says. Throws ErrorCode::resources.
-  std::unique_ptr<FrameWriter> (*make_writer)(const std::string& directory, const Bodies& bodies,
-                                              std::size_t kept);
+  std::unique_ptr<FrameWriter> (*make_writer)(const std::string& directory,
+                                              const TrajectoryContents& contents, std::size_t kept);
   /// Records of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as
   /// many.
-  FileRecords (*read_records)(const std::string& directory, const Bodies& bodies,
+  FileRecords (*read_records)(const std::string& directory, const TrajectoryContents& contents,
                               std::size_t frames);
 };
 

@@ -14,9 +14,9 @@ OutputFormat format_of(const char* name, const char* folder) {
           folder,
           &Writer::is_output,
           &Writer::may_write,
-          [](const std::string& directory, const OutputFormat::Bodies& bodies,
+          [](const std::string& directory, const TrajectoryContents& contents,
              std::size_t kept) -> std::unique_ptr<FrameWriter> {
-            return std::make_unique<Writer>(directory, bodies, kept);
+            return std::make_unique<Writer>(directory, contents, kept);
           },
           &Writer::read_records};
 }

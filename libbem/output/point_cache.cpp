@@ -83,14 +83,14 @@ GrowingFile create_cache(const std::string& path, std::size_t vertices) {
 
 }  // namespace
 
-PointCache::PointCache(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+PointCache::PointCache(const std::string& directory, const TrajectoryContents& contents,
                        std::size_t kept)
-    : bodies_((check_bodies(bodies), check_rest(bodies), bodies)),
+    : contents_((check_contents(contents), check_rest(contents.bodies), contents)),
       folder_(directory + "/" + kPointCacheFolder),
       frames_(kept) {
   create_folder(folder_);
-  records_ = read_records(directory, bodies_, 0);
-  for (const TrajectoryBody& body : bodies_) {
+  records_ = read_records(directory, contents_, 0);
+  for (const TrajectoryBody& body : contents_.bodies) {
     const std::string path = folder_ + "/" + body.name + kPointCacheExtension;
     files_.push_back(kept > 0 ? open_cache(path, body.vertices, kept)
                               : create_cache(path, body.vertices));
@@ -98,26 +98,26 @@ PointCache::PointCache(const std::string& directory, const std::vector<Trajector
 }
 
 void PointCache::write_meshes(const Frame& first) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for (std::size_t i = 0; i < contents_.bodies.size(); ++i) {
     const BodyFrame& start = first.bodies[i];
     std::vector<Vec3> places, normals;
-    for (const Vec3& x : bodies_[i].rest)
-      places.emplace_back(start.translation + start.rotation * x);
-    if (bodies_[i].render)
-      for (const PointNormal& n : bodies_[i].render->obj.normals())
-        normals.emplace_back(start.rotation * n.direction.normalized());
-    const std::string text = BodyObj(bodies_[i], folder_).text(places, normals);
-    publish(folder_ + "/" + bodies_[i].name + kPointCacheMeshExtension, text);
+    for (const Vec3& x : contents_.bodies[i].rest)
+      places.emplace_back(start.frame.translation + start.frame.rotation * x);
+    if (contents_.bodies[i].render)
+      for (const PointNormal& n : contents_.bodies[i].render->obj.normals())
+        normals.emplace_back(start.frame.rotation * n.direction.normalized());
+    const std::string text = BodyObj(contents_.bodies[i], folder_).text(places, normals);
+    publish(folder_ + "/" + contents_.bodies[i].name + kPointCacheMeshExtension, text);
     records_[2 * i + 1].add(text);
   }
 }
 
 void PointCache::write(const Frame& frame) {
-  check_frame(bodies_, frame);
+  check_frame(contents_, frame);
   require(frame.index == frames_ && frames_ < std::numeric_limits<std::int32_t>::max(),
           "frames are written in their order");
   if (frames_ == 0) write_meshes(frame);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for (std::size_t i = 0; i < contents_.bodies.size(); ++i) {
     const std::string bytes = sample(frame.bodies[i].positions);
     files_[i].write(kHeaderSize + frames_ * bytes.size(), bytes);
     files_[i].write(kSamplesAt, bytes_of(static_cast<std::int32_t>(frames_ + 1)));
@@ -129,7 +129,7 @@ void PointCache::write(const Frame& frame) {
 void PointCache::sync() {
   for (std::size_t i = 0; i < files_.size(); ++i) {
     files_[i].sync();
-    const std::string mesh = folder_ + "/" + bodies_[i].name + kPointCacheMeshExtension;
+    const std::string mesh = folder_ + "/" + contents_.bodies[i].name + kPointCacheMeshExtension;
     if (frames_ > 0) check_io(sync_file(mesh), mesh);
   }
   check_io(sync_folder(folder_), folder_);
@@ -150,10 +150,9 @@ bool PointCache::may_write(const std::filesystem::path& path) {
 }
 
 FileRecords PointCache::read_records(const std::string& directory,
-                                     const std::vector<TrajectoryBody>& bodies,
-                                     std::size_t frames) {
+                                     const TrajectoryContents& contents, std::size_t frames) {
   FileRecords records;
-  for (const TrajectoryBody& body : bodies) {
+  for (const TrajectoryBody& body : contents.bodies) {
     const std::string name = std::string(kPointCacheFolder) + "/" + body.name;
     records.push_back({name + kPointCacheExtension, 0, {}});
     records.push_back({name + kPointCacheMeshExtension, 0, {}});

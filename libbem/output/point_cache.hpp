@@ -1,6 +1,6 @@
 #pragma once
 
-#include "output/frame.hpp"
+#include "output/frame_writer.hpp"
 #include "output/growing_file.hpp"
 
 #include <filesystem>
@@ -28,7 +28,7 @@ class PointCache : public FrameWriter {
  public:
   /// Creates the folder in an existing directory, and caches without samples. The bodies bring
   /// their rest shapes. Throws ErrorCode::resources.
-  PointCache(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+  PointCache(const std::string& directory, const TrajectoryContents& contents,
              std::size_t kept = 0);
 
   void write(const Frame& frame) override;
@@ -39,13 +39,13 @@ class PointCache : public FrameWriter {
   static bool is_output(const std::filesystem::path& path);
   static bool may_write(const std::filesystem::path& path);
   /// Of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as many.
-  static FileRecords read_records(const std::string& directory,
-                                  const std::vector<TrajectoryBody>& bodies, std::size_t frames);
+  static FileRecords read_records(const std::string& directory, const TrajectoryContents& contents,
+                                  std::size_t frames);
 
  private:
   void write_meshes(const Frame& first);
 
-  std::vector<TrajectoryBody> bodies_;
+  TrajectoryContents contents_;
   std::string folder_;
   std::vector<GrowingFile> files_;  ///< by body
   std::size_t frames_;              ///< written so far

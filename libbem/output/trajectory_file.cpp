@@ -2,14 +2,13 @@
 
 #include "base/finite.hpp"
 #include "files/file_check.hpp"
+#include "output/trajectory_layout.hpp"
 
 #include <algorithm>
 #include <functional>
 
 namespace bem {
 namespace {
-
-constexpr const char* kTimes = "/time";
 
 Hdf5File open_checked(const std::string& path, ErrorCode error) {
   check_hdf5_file(path, Hdf5Storage::growing, error);
@@ -26,12 +25,12 @@ std::size_t product(const Hdf5Dims& extents) {
 
 TrajectoryFile::TrajectoryFile(const std::string& path, ErrorCode error)
     : file_(open_checked(path, error)) {
-  const Hdf5Dims dims = file_.dims(kTimes);
-  file_.require_dataset(kTimes, Hdf5Type::float64, {dims.empty() ? 0 : dims[0]});
-  times_ = file_.read<double>(kTimes);
-  check_finite(kTimes, times_.data(), times_.size());
+  const Hdf5Dims dims = file_.dims(kTimesPath);
+  file_.require_dataset(kTimesPath, Hdf5Type::float64, {dims.empty() ? 0 : dims[0]});
+  times_ = file_.read<double>(kTimesPath);
+  check_finite(kTimesPath, times_.data(), times_.size());
   if (std::adjacent_find(times_.begin(), times_.end(), std::greater_equal<>()) != times_.end())
-    throw Error(error, path + ": " + kTimes + " does not ascend");
+    throw Error(error, path + ": " + kTimesPath + " does not ascend");
 }
 
 std::string TrajectoryFile::series(const std::string& body, const std::string& name) const {
@@ -59,8 +58,8 @@ std::size_t TrajectoryFile::vertices(const std::string& body) const {
   return dims.size() == 3 ? dims[1] : 0;
 }
 
-bool TrajectoryFile::has_tractions(const std::string& body) const {
-  return file_.exists(series(body, "/tractions"));
+bool TrajectoryFile::has(const std::string& body, const std::string& name) const {
+  return file_.exists(series(body, name));
 }
 
 std::vector<std::string> TrajectoryFile::children(const std::string& group) const {
@@ -117,27 +116,30 @@ std::vector<Triangle> TrajectoryFile::triangles(const std::string& path,
 
 /// What extents promise must be there: what is not in the file reads as zeros.
 void TrajectoryFile::check_rows(const std::string& path, const Hdf5Dims& extents, std::size_t rows,
-                                const char* of) const {
+                                Hdf5Type type) const {
   const std::size_t found = row_count(path);
   Hdf5Dims expected{found};
   expected.insert(expected.end(), extents.begin(), extents.end());
-  file_.require_dataset(path, Hdf5Type::float64, expected);
+  file_.require_dataset(path, type, expected);
+  const std::size_t number = type == Hdf5Type::int32 ? 4 : 8;
   if (found < rows ||
-      file_.stored_bytes(path) / sizeof(double) / std::max<std::size_t>(1, product(extents)) < rows)
-    throw Error(file_.error(), file_.path() + ": " + path + " has fewer frames than " + of);
+      file_.stored_bytes(path) / number / std::max<std::size_t>(1, product(extents)) < rows)
+    throw Error(file_.error(), file_.path() + ": " + path + " has fewer " +
+                                   (rows == times_.size() ? std::string("frames than ") + kTimesPath
+                                                          : "rows than are used"));
 }
 
 void TrajectoryFile::read(const std::string& body, const std::string& name, const Hdf5Dims& extents,
                           std::size_t frame, double* out) const {
   const std::string path = series(body, name);
-  check_rows(path, extents, times_.size(), kTimes);
+  check_rows(path, extents, times_.size(), Hdf5Type::float64);
   file_.read_rows(path, frame, 1, out);
   check_finite(path, out, product(extents));
 }
 
 std::vector<double> TrajectoryFile::rows(const std::string& path, const Hdf5Dims& extents,
-                                         std::size_t first, std::size_t end) const {
-  check_rows(path, extents, end, "are used");
+                                         std::size_t first, std::size_t end, Hdf5Type type) const {
+  check_rows(path, extents, end, type);
   std::vector<double> out((end - first) * product(extents));
   if (!out.empty()) file_.read_rows(path, first, end - first, out.data());
   check_finite(path, out.data(), out.size());

@@ -9,15 +9,10 @@
 
 namespace bem {
 
-/// Attribute of a body's group in trajectories with render meshes, and its values for these and for
-/// simulated surfaces beside them.
-inline constexpr const char* kSurfaceAttribute = "surface";
-inline constexpr const char* kRenderSurface = "render";
-inline constexpr const char* kSimulatedSurface = "simulation";
-
-/// A trajectory.h5 (output/hdf5_trajectory.hpp) that is read back. Structure, types and extents are
-/// checked before anything is read, and that numbers are finite when they are. Everything throws
-/// Error with the code that it was opened with and a message that names file and place.
+/// A trajectory.h5 (docs/trajectory-format.md, version 1 or 2) that is read back. Structure, types
+/// and extents are checked before anything is read, and that numbers are finite when they are.
+/// Everything throws Error with the code that it was opened with and a message that names file and
+/// place.
 class TrajectoryFile {
  public:
   /// Opens a complete trajectory, or one whose writer was stopped. Reads it once (file_check.hpp).
@@ -34,7 +29,8 @@ class TrajectoryFile {
   /// Is it a render mesh, not the simulated surface?
   bool is_render_mesh(const std::string& body) const;
   std::size_t vertices(const std::string& body) const;
-  bool has_tractions(const std::string& body) const;
+  /// Has the body a field or series of this name ("/tractions", "/series/momentum")?
+  bool has(const std::string& body, const std::string& name) const;
   /// Vertex indices.
   std::vector<Triangle> faces(const std::string& body) const;
 
@@ -54,10 +50,10 @@ class TrajectoryFile {
   /// Integer of an attribute, or `otherwise` if there is none.
   std::int64_t integer(const std::string& object, const std::string& attribute,
                        std::int64_t otherwise) const;
-  /// The rows of a dataset of real numbers with extents [rows, ...extents], from `first` to before
-  /// `end`, which must be there.
+  /// The rows of a dataset of `type` with extents [rows, ...extents], from `first` to before `end`,
+  /// which must be there.
   std::vector<double> rows(const std::string& path, const Hdf5Dims& extents, std::size_t first,
-                           std::size_t end) const;
+                           std::size_t end, Hdf5Type type = Hdf5Type::float64) const;
   /// All frames of one.
   std::vector<double> all_frames(const std::string& path, const Hdf5Dims& extents) const {
     return rows(path, extents, 0, times_.size());
@@ -68,7 +64,7 @@ class TrajectoryFile {
  private:
   std::string series(const std::string& body, const std::string& name) const;
   void check_rows(const std::string& path, const Hdf5Dims& extents, std::size_t rows,
-                  const char* of) const;
+                  Hdf5Type type) const;
   void check_finite(const std::string& path, const double* numbers, std::size_t count) const;
 
   Hdf5File file_;

@@ -1,8 +1,7 @@
 #include "output/trajectory_scene.hpp"
 
 #include "base/error.hpp"
-
-#include <algorithm>
+#include "output/trajectory_layout.hpp"
 
 namespace bem {
 namespace {
@@ -41,17 +40,15 @@ std::vector<RecordedObstacle> read_obstacles(const TrajectoryFile& file) {
 
 RecordedContacts read_contacts(const TrajectoryFile& file) {
   RecordedContacts contacts;
-  if (!file.has("/contacts/ends")) return contacts;
-  double before = 0;
-  const double most = static_cast<double>(file.row_count("/contacts/points"));
-  for (double end : file.all_frames("/contacts/ends", {})) {
-    if (!(end >= before && end <= most))
-      throw Error(file.error(),
-                  file.path() + ": /contacts/ends does not ascend to the number of contacts");
-    contacts.ends.push_back(static_cast<std::size_t>(end));
-    before = end;
+  if (!file.has(kContactCountsPath)) return contacts;
+  std::size_t rows = 0;
+  const std::size_t frames = file.times().size();
+  for (double count : file.rows(kContactCountsPath, {}, 0, frames, Hdf5Type::int32)) {
+    if (count < 0)
+      throw Error(file.error(), file.path() + ": " + kContactCountsPath + " has a negative number");
+    rows += static_cast<std::size_t>(count);
+    contacts.ends.push_back(rows);
   }
-  const std::size_t rows = contacts.ends.empty() ? 0 : contacts.ends.back();
   contacts.points = file.rows("/contacts/points", {3}, 0, rows);
   contacts.forces = file.rows("/contacts/forces", {3}, 0, rows);
   return contacts;

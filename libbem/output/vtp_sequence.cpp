@@ -38,7 +38,7 @@ std::vector<Vec3> deformation(const std::vector<Vec3>& rest, const BodyFrame& st
   std::vector<Vec3> out;
   out.reserve(rest.size());
   for (std::size_t v = 0; v < rest.size(); ++v)
-    out.push_back(state.positions[v] - (state.translation + state.rotation * rest[v]));
+    out.push_back(state.positions[v] - (state.frame.translation + state.frame.rotation * rest[v]));
   return out;
 }
 
@@ -56,16 +56,16 @@ std::vector<std::int32_t> face_ends(const TrajectoryBody& body) {
 
 }  // namespace
 
-VtpSequence::VtpSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+VtpSequence::VtpSequence(const std::string& directory, const TrajectoryContents& contents,
                          std::size_t kept)
-    : bodies_((check_bodies(bodies), check_rest(bodies), bodies)),
+    : contents_((check_contents(contents), check_rest(contents.bodies), contents)),
       files_(directory, kVtpFolder, kVtpExtension, kept),
-      list_(files_.folder() + "/" + kPvdFile, kept * bodies.size()) {
-  records_ = read_records(directory, bodies_, 0);
+      list_(files_.folder() + "/" + kPvdFile, kept * contents.bodies.size()) {
+  records_ = read_records(directory, contents_, 0);
 }
 
 std::string VtpSequence::contents_of(std::size_t body, const BodyFrame& state, double time) const {
-  const TrajectoryBody& b = bodies_[body];
+  const TrajectoryBody& b = contents_.bodies[body];
   AppendedData data;
   std::string xml =
       "<?xml version=\"1.0\"?>\n"
@@ -83,7 +83,9 @@ std::string VtpSequence::contents_of(std::size_t body, const BodyFrame& state, d
       std::to_string(face_count(b)) + "\">\n";
   xml += "<PointData Vectors=\"deformation\">\n" +
          data.add("Float64", "deformation", 3, deformation(b.rest, state));
-  if (b.tractions) xml += data.add("Float64", "tractions", 3, state.tractions);
+  for (std::size_t i = 0; i < b.fields.size(); ++i)
+    xml += data.add("Float64", b.fields[i].name.c_str(), static_cast<int>(b.fields[i].components),
+                    state.fields[i]);
   xml += "</PointData>\n<Points>\n" + data.add("Float64", "Points", 3, state.positions);
   xml += "</Points>\n<Polys>\n" +
          (b.render ? data.add("Int32", "connectivity", 1, b.render->corners)
@@ -94,11 +96,11 @@ std::string VtpSequence::contents_of(std::size_t body, const BodyFrame& state, d
 }
 
 void VtpSequence::write(const Frame& frame) {
-  check_frame(bodies_, frame);
+  check_frame(contents_, frame);
   require(frame.index == files_.frames(), "frames are written in their order");
   std::vector<PvdCollection::Entry> parts;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const std::string& name = bodies_[i].name;
+  for (std::size_t i = 0; i < contents_.bodies.size(); ++i) {
+    const std::string& name = contents_.bodies[i].name;
     parts.push_back(
         {files_.write(name, contents_of(i, frame.bodies[i], frame.time), records_[i]), name});
   }
@@ -108,7 +110,7 @@ void VtpSequence::write(const Frame& frame) {
 }
 
 void VtpSequence::sync() {
-  files_.sync(bodies_);
+  files_.sync(contents_.bodies);
   list_.sync();
 }
 
@@ -118,8 +120,8 @@ bool VtpSequence::is_output(const std::filesystem::path& path) {
 }
 
 FileRecords VtpSequence::read_records(const std::string& directory,
-                                      const std::vector<TrajectoryBody>& bodies,
-                                      std::size_t frames) {
+                                      const TrajectoryContents& contents, std::size_t frames) {
+  const auto& bodies = contents.bodies;
   FileRecords records =
       FrameFiles::read_records(directory, kVtpFolder, bodies, kVtpExtension, frames);
   records.push_back({std::string(kVtpFolder) + "/" + kPvdFile, 0, {}});

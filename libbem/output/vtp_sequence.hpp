@@ -1,7 +1,7 @@
 #pragma once
 
-#include "output/frame.hpp"
 #include "output/frame_files.hpp"
+#include "output/frame_writer.hpp"
 #include "output/pvd_collection.hpp"
 
 #include <filesystem>
@@ -22,13 +22,14 @@ inline constexpr const char* kPvdFile = "trajectory.pvd";
 /// A .vtp file is XML PolyData whose numbers are appended as raw bytes: points (float64, world
 /// [m]) and polygons are the vertices and triangles of the input mesh in their order; the point
 /// data are "deformation", the position less where the body's frame takes the rest shape (float64,
-/// world [m]), and where asked for "tractions" (float64, world [Pa]). The field data have the time
-/// as "TimeValue". A file appears under its name when it is complete, and in the list after that.
+/// world [m]), and the fields of the body (float64, tensors in the order xx yy zz xy yz xz, which
+/// is that of VTK). The field data have the time as "TimeValue". A file appears under its name when
+/// it is complete, and in the list after that.
 class VtpSequence : public FrameWriter {
  public:
   /// Creates the folder in an existing directory, and an empty list. The bodies bring their rest
   /// shapes. Throws ErrorCode::resources.
-  VtpSequence(const std::string& directory, const std::vector<TrajectoryBody>& bodies,
+  VtpSequence(const std::string& directory, const TrajectoryContents& contents,
               std::size_t kept = 0);
 
   void write(const Frame& frame) override;
@@ -39,13 +40,13 @@ class VtpSequence : public FrameWriter {
   static bool is_output(const std::filesystem::path& path);
   static bool may_write(const std::filesystem::path& path) { return is_output(path); }
   /// Of the first frames on the disk. Throws ErrorCode::invalid_input if there are not as many.
-  static FileRecords read_records(const std::string& directory,
-                                  const std::vector<TrajectoryBody>& bodies, std::size_t frames);
+  static FileRecords read_records(const std::string& directory, const TrajectoryContents& contents,
+                                  std::size_t frames);
 
  private:
   std::string contents_of(std::size_t body, const BodyFrame& state, double time) const;
 
-  std::vector<TrajectoryBody> bodies_;
+  TrajectoryContents contents_;
   FrameFiles files_;
   PvdCollection list_;
 };

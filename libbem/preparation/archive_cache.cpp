@@ -72,7 +72,11 @@ std::string ArchiveCache::path_of(const std::string& mesh, const std::string& in
 
 bool ArchiveCache::has(const std::string& path) const {
   std::error_code error;
-  return fs::exists(path, error);
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status))
+    throw Error(ErrorCode::resources,
+                path + ": there is a folder in place of an archive of the cache; remove it");
+  return fs::exists(status);
 }
 
 bool ArchiveCache::provide(const std::string& path, const std::function<void()>& make,

@@ -23,6 +23,7 @@ class ArchiveCache {
   /// Path of the archive of this mesh file whose inputs are described by a text.
   std::string path_of(const std::string& mesh, const std::string& inputs) const;
 
+  /// Throws ErrorCode::resources if it is a folder.
   bool has(const std::string& path) const;
 
   /// Calls `make`, which has to write the file, if the file is not there; before, `waiting` if

@@ -62,7 +62,15 @@ class Planner {
     return style_ == SettingStyle::option ? "--dt" : "\"time_step\"";
   }
 
+  /// Nobody has said how long it is.
+  bool is_step_automatic() const {
+    return inputs_.automatic_time_step || !(settings().time_step || inputs_.material.time_step);
+  }
+  /// `text` where the time step is given, so that another one may be.
+  std::string if_given(const std::string& text) const { return is_step_automatic() ? "" : text; }
+
   void make_body(SimulatedMesh mesh);
+  void tell_large_body();
   void settle_method(const Surface& surface);
   void choose_discretisation();
   void choose_storage();
@@ -88,12 +96,22 @@ void Planner::make_body(SimulatedMesh mesh) {
   if (settings().model != ModelKind::rigid) settle_method(surface);
   plan_.geometry = make_geometry(surface, inputs_.material.density);
   plan_.geometry.corner_angle_deg = settings().corner_angle();
+  tell_large_body();
   constexpr std::size_t kMany = 20000;
   const std::size_t nodes = plan_.geometry.nodes.vertices.size();
   if (nodes > kMany && settings().model != ModelKind::rigid)
     plan_.warnings.push_back(inputs_.mesh + ": " + std::to_string(nodes) +
                              " vertices take hours and much memory; " + name("nodes") +
                              " simulates a coarser surface that moves the mesh");
+}
+
+/// Modelling programs write millimetres, and files do not say so.
+void Planner::tell_large_body() {
+  constexpr double kLarge = 10;  // [m]
+  if (inputs_.mesh_scale != 1 || plan_.geometry.extent < kLarge) return;
+  plan_.notes.push_back(inputs_.mesh + ": the body is " + rounded_text(plan_.geometry.extent, 3) +
+                        " m large; a mesh in millimetres needs " + name("mesh-scale") +
+                        (style_ == SettingStyle::option ? " 0.001" : ": 0.001"));
 }
 
 void Planner::settle_method(const Surface& surface) {
@@ -153,12 +171,12 @@ void Planner::load(const std::vector<Selection>& selections) {
 double Planner::time_step() {
   if (settings().time_step) return *settings().time_step;
   if (inputs_.material.time_step) return *inputs_.material.time_step;
-  const double step = automatic_time_step({crossing_time(plan_.geometry.extent, inputs_.material)});
-  plan_.notes.push_back("no time step is given: " + to_text(step) +
-                        " s, in eight of which a shear wave crosses the body; a scene with "
-                        "this archive needs \"time_step\": " +
-                        to_text(step) + " or \"auto\"");
-  return step;
+  const AutomaticTimeStep step =
+      automatic_time_step({crossing_time(plan_.geometry.extent, inputs_.material)});
+  plan_.notes.push_back(
+      "no time step is given: " + to_text(step.seconds) + " s" + step.reason +
+      "; a scene with this archive needs \"time_step\": " + to_text(step.seconds) + " or \"auto\"");
+  return step.seconds;
 }
 
 double Planner::history_length() const {
@@ -176,15 +194,17 @@ void Planner::choose_history() {
   d.dt = time_step();
   plan_.lam = traversal_steps(plan_.geometry, d.material, d.dt);
   if (!(plan_.lam <= kMostTraversalSteps))
-    throw Error(ErrorCode::usage, "the time step " + to_text(d.dt) +
-                                      " s is too small: a shear wave takes " +
-                                      to_text(std::round(plan_.lam)) +
-                                      " steps across the body; use a larger " + time_step_name());
+    throw Error(
+        ErrorCode::usage,
+        "the time step " + to_text(d.dt) + " s is too small: a shear wave takes " +
+            to_text(std::round(plan_.lam)) + " steps across the body; use " +
+            (is_step_automatic() ? "fewer frames per second" : "a larger " + time_step_name()));
   const double length = history_length();
   if (!(length <= kLongestHistory))
     throw Error(ErrorCode::usage, "the history would be " + to_text(std::round(length)) +
-                                      " steps long; use a larger " + time_step_name() +
-                                      " or a smaller " + name("damping"));
+                                      " steps long; use " +
+                                      if_given("a larger " + time_step_name() + " or ") +
+                                      "a smaller " + name("damping"));
   d.history_length = static_cast<int>(length);
   check_history();
 }
@@ -196,16 +216,16 @@ void Planner::check_history() {
   if (is_too_short(d.history_length, plan_.lam))
     throw Error(ErrorCode::usage, name("history") + " " + std::to_string(d.history_length) +
                                       " is too short: a shear wave takes " + crossing +
-                                      " steps across the body; leave it away or use a larger " +
-                                      time_step_name());
+                                      " steps across the body; leave it away" +
+                                      if_given(" or use a larger " + time_step_name()));
   if (d.is_galerkin() && d.history_length < std::floor(plan_.lam + 2))
     plan_.warnings.push_back("the history of " + std::to_string(d.history_length) +
                              " steps is shorter than the " + crossing +
                              " steps that a shear wave takes across the body: motions may grow");
   if (d.history_length > kLongHistory)
     plan_.warnings.push_back("the history is long: " + std::to_string(d.history_length) +
-                             " steps; memory and time grow with it (a larger " + time_step_name() +
-                             " makes it shorter)");
+                             " steps; memory and time grow with it" +
+                             if_given(" (a larger " + time_step_name() + " makes it shorter)"));
 }
 
 /// Triangles that are close to each other, as in thin walls and slits, take the more points of the

@@ -20,6 +20,7 @@ struct BodyInputs {
   std::string material_name;  ///< a path or a name, for messages
   PrecomputeSettings settings;
   RepairMode repair = RepairMode::off;  ///< where the settings do not say
+  bool automatic_time_step = false;     ///< that of the settings was chosen
   /// The vertices that contacts, joints and fixed vertices may act on, in place of
   /// `settings.loads` "all"; empty: as that says.
   std::vector<Selection> loaded;

@@ -207,11 +207,13 @@ std::vector<Vec3> SurfaceBinding::normals(const SurfacePose& pose,
   return out;
 }
 
-std::vector<Vec3> SurfaceBinding::interpolate(const std::vector<Vec3>& values) const {
-  std::vector<Vec3> out(points_.size());
-  for_each_point(out.size(), [&](std::size_t i) {
-    out[i].setZero();
-    for (int k = 0; k < 3; ++k) out[i] += points_[i].weights[k] * values[points_[i].vertices[k]];
+Eigen::MatrixXd SurfaceBinding::interpolate(const Eigen::MatrixXd& values) const {
+  Eigen::MatrixXd out =
+      Eigen::MatrixXd::Zero(values.rows(), static_cast<Eigen::Index>(points_.size()));
+  for_each_point(points_.size(), [&](std::size_t i) {
+    for (int k = 0; k < 3; ++k)
+      out.col(static_cast<Eigen::Index>(i)) +=
+          points_[i].weights[k] * values.col(points_[i].vertices[k]);
   });
   return out;
 }

@@ -48,8 +48,8 @@ class SurfaceBinding {
   /// Unit normals at some of the points, turned as the surface turns and deforms; those of length
   /// zero stay zero, those of no point as they are. O(normals).
   std::vector<Vec3> normals(const SurfacePose& pose, const std::vector<PointNormal>& normals) const;
-  /// Values at the vertices of the surface, interpolated linearly at the points.
-  std::vector<Vec3> interpolate(const std::vector<Vec3>& values) const;
+  /// Values at the vertices of the surface, a column each, interpolated linearly at the points.
+  Eigen::MatrixXd interpolate(const Eigen::MatrixXd& values) const;
 
  private:
   struct Point {

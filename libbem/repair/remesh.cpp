@@ -7,6 +7,7 @@
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 
 namespace bem {
 namespace {
@@ -18,7 +19,11 @@ constexpr double kTolerance = 0.05;  ///< of the number of vertices
 constexpr double kRefused = 0.98;    ///< times the length of edges whose mesh was not accepted
 constexpr double kFar = 0.1;         ///< of the number of vertices, for a try from a finer mesh
 constexpr double kFinerStart = 3;    ///< times the vertices of that
-constexpr double kManyTimes = 8;  ///< a mesh with so many times the vertices is thinned out first
+// Needles and caps that features near each other leave are collapsed and flipped.
+constexpr double kCap = -0.94;      ///< cosine of an angle
+constexpr double kNeedle = 4;       ///< longest edge over the shortest one
+constexpr double kShortEdge = 0.2;  ///< of the edge length that is aimed at
+constexpr double kManyTimes = 8;    ///< a mesh with so many times the vertices is thinned out first
 
 /// Of the equilateral triangles with which so many nodes cover the area.
 double edge_length(double area, double nodes) {
@@ -86,6 +91,7 @@ class Remesher {
                                  .number_of_iterations(3)
                                  .number_of_relaxation_steps(2)
                                  .relax_constraints(true));
+    pmp::experimental::remove_almost_degenerate_faces(mesh, kCap, kNeedle, kShortEdge * length);
     mesh.collect_garbage();
     return mesh;
   }

@@ -23,6 +23,7 @@
 namespace bem {
 namespace {
 
+constexpr double kMostWrapTriangles = 2e6;
 constexpr double kLargestAlpha = 1.0;     ///< of the size
 constexpr int kFewestWrapNodes = 500;     ///< of the remeshed wrap of a small mesh ...
 constexpr int kMostWrapNodes = 2000;      ///< ... and of a large one
@@ -130,6 +131,7 @@ class Repair {
     weld_within(soup, 0);
     drop_collapsed(soup);
     if (soup.triangles.empty()) refuse("no triangle has an area");
+    check_size_of_wrap(surface_area(soup));
     const std::optional<Acceptance> first = wrapped(soup, options_.alpha);
     if (first && first->solids == 1) return take_wrap(*first, options_.alpha, soup);
     if (first && join_and_wrap(*first, soup)) return;
@@ -139,6 +141,18 @@ class Repair {
     }
     refuse("no wrap around it is one solid; split it with \"bemshape split " + name_ +
            " -o 'part-%d.obj'\"");
+  }
+
+  /// Triangles of a wrap are about alpha large, and take a kilobyte each while it is made.
+  void check_size_of_wrap(double area) const {
+    const auto triangles = [&](double alpha) { return 2 * area / (alpha * alpha); };
+    if (triangles(options_.alpha) <= kMostWrapTriangles) return;
+    const double least = std::sqrt(2 * area / kMostWrapTriangles);
+    throw Error(ErrorCode::usage, name_ + ": a wrap with --alpha " + to_text(options_.alpha) +
+                                      " would have about " +
+                                      rounded_text(triangles(options_.alpha), 2) +
+                                      " triangles; the least useful alpha of this mesh is " +
+                                      rounded_text(1.05 * least, 2));
   }
 
   /// The checks of a wrap, if there is a closed one.
@@ -328,12 +342,12 @@ void check_repair_options(const RepairOptions& o) {
   const auto check = [](bool fine, const std::string& what, const std::string& range) {
     if (!fine) throw Error(ErrorCode::usage, what + " must be in " + range);
   };
-  check(o.weld_tolerance >= 0 && o.weld_tolerance <= 0.1, "the tolerance of welding", "[0, 0.1]");
-  check(o.thickness > 0 && o.thickness <= 0.5, "the thickness of sheets", "(0, 0.5]");
-  check(o.alpha > 0 && o.alpha <= 1, "alpha", "(0, 1]");
-  check(o.offset > 0 && o.offset <= 0.5, "the offset", "(0, 0.5]");
-  check(!o.nodes || *o.nodes >= 12, "the number of nodes", "[12, ...)");
-  check(o.feature_angle_deg > 0 && o.feature_angle_deg <= 180, "the feature angle", "(0, 180]");
+  check(o.weld_tolerance >= 0 && o.weld_tolerance <= 0.1, "--weld", "[0, 0.1]");
+  check(o.thickness > 0 && o.thickness <= 0.5, "--thickness", "(0, 0.5]");
+  check(o.alpha > 0 && o.alpha <= 1, "--alpha", "(0, 1]");
+  check(o.offset > 0 && o.offset <= 0.5, "--offset", "(0, 0.5]");
+  check(!o.nodes || *o.nodes >= 12, "--nodes", "[12, ...)");
+  check(o.feature_angle_deg > 0 && o.feature_angle_deg <= 180, "--feature-angle", "(0, 180]");
 }
 
 }  // namespace bem

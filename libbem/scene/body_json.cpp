@@ -45,6 +45,7 @@ TractionSpec read_traction(const JsonValue& value) {
 
 PlaceSpec read_place(const JsonValue& value) {
   JsonReader reader(value, "a place");
+  reader.require_any_of({"on", "center"});
   PlaceSpec place;
   place.location = value.location();
   const auto centre = reader.optional("center");
@@ -55,7 +56,6 @@ PlaceSpec read_place(const JsonValue& value) {
     place.on_location = on->location();
     if (place.on.empty()) throw on->unexpected("the name of an obstacle");
   }
-  if (!on && !centre) throw value.error("one of the keys on, center is required");
   if (const auto gap = reader.optional("gap")) place.gap = gap->non_negative(dimension::length);
   if (const auto direction = reader.optional("direction")) place.direction = direction->direction();
   for (const char* key : {"gap", "direction"})
@@ -130,8 +130,11 @@ BodySource read_source(const JsonValue& mesh, JsonReader& reader) {
   if (material.kind() == JsonKind::string && !is_named_material(material.text()))
     source.material_path = read_path(material);
   source.material_path.location = material.location();
-  if (const auto settings = reader.optional("precompute"))
+  if (const auto settings = reader.optional("precompute")) {
     source.settings = read_settings(*settings);
+    if (const auto loads = JsonReader(*settings, "settings").optional("loads"))
+      source.loads_location = loads->location();
+  }
   return source;
 }
 

@@ -118,6 +118,7 @@ struct BodySource {
   Material material;
   FilePath material_path;       ///< of a material file; its place only, for an inline material
   PrecomputeSettings settings;  ///< of "precompute"
+  Location loads_location;      ///< of "loads" in that, where it is given
 };
 
 /// Where a body is put once its geometry is known (simulation/placement.hpp).

@@ -51,6 +51,7 @@ class JsonDocument {
   /// text or is no JSON, and ErrorCode::resources if it may not be read.
   static JsonDocument read(const std::string& path);
 
+  const std::string& text() const { return text_; }  ///< that was parsed
   /// The files that values were written in; the first is the one that was parsed.
   const std::vector<std::string>& files() const { return files_; }
   std::uint32_t root() const { return root_; }
@@ -80,6 +81,7 @@ class JsonDocument {
   friend class JsonBuilder;
   std::string pointer(std::uint32_t id) const;
 
+  std::string text_;
   std::vector<std::string> files_;
   std::uint32_t root_ = 0;
   std::vector<Node> nodes_;

@@ -230,6 +230,7 @@ class JsonBuilder final : public nlohmann::json_sax<Json> {
 JsonDocument JsonDocument::parse(const std::string& file, const std::string& text) {
   JsonDocument document;
   document.files_ = {file};
+  document.text_ = text;
   if (text.size() > kMaxBytes) throw error_at({file, 0, 0, ""}, "larger than 64 MiB");
   if (const auto zero = text.find('\0'); zero != std::string::npos) {
     // The parser would take a zero byte for the end of the text.

@@ -12,7 +12,9 @@ namespace {
 
 constexpr std::size_t kLongestName = 1000;
 
-Material material_from(const JsonValue& value) {
+enum class Place { file, scene };
+
+Material material_from(const JsonValue& value, Place place) {
   JsonReader reader(value, "a material");
   Material material;
   material.name = reader.required("name").text();
@@ -27,7 +29,10 @@ Material material_from(const JsonValue& value) {
   const std::string modulus = reader.required_one_of({"shear_modulus", "youngs_modulus"});
   material.shear_modulus = reader.required(modulus).positive(dimension::pressure);
   if (modulus == "youngs_modulus") material.shear_modulus /= 2 * (1 + material.poisson_ratio);
-  if (const auto dt = reader.optional("time_step"))
+  if (place == Place::scene)
+    reader.refuse("time_step",
+                  "is no key of a material in a scene, which has a \"time_step\" itself");
+  else if (const auto dt = reader.optional("time_step"))
     material.time_step = dt->positive(dimension::time);
   reader.finish();
   if (!std::isnormal(material.shear_speed()))
@@ -40,16 +45,16 @@ Material material_from(const JsonValue& value) {
 
 Material read_material(const std::string& path) {
   const JsonDocument document = JsonDocument::read(path);
-  return material_from(JsonValue(document, document.root()));
+  return material_from(JsonValue(document, document.root()), Place::file);
 }
 
 Material parse_material(const std::string& file, const std::string& text) {
   const JsonDocument document = JsonDocument::parse(file, text);
-  return material_from(JsonValue(document, document.root()));
+  return material_from(JsonValue(document, document.root()), Place::file);
 }
 
 Material read_material_value(const JsonValue& value) {
-  if (value.kind() == JsonKind::object) return material_from(value);
+  if (value.kind() == JsonKind::object) return material_from(value, Place::scene);
   if (value.kind() != JsonKind::string)
     throw value.unexpected("a material (a name, a path, or an object)");
   const FilePath path = read_path(value);

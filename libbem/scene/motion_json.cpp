@@ -1,5 +1,6 @@
 #include "scene/scene_parts.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace bem {
@@ -11,6 +12,18 @@ double later_than(const std::optional<double>& before, const JsonValue& value) {
   if (before && !(time > *before))
     throw value.unexpected("a later time than in the element before");
   return time;
+}
+
+/// Paths as Windows writes them, which lead to a file if they are written with slashes.
+void refuse_backslashes(const JsonValue& value, const std::filesystem::path& folder) {
+  std::string slashes = value.text();
+  if (slashes.find('\\') == std::string::npos) return;
+  std::replace(slashes.begin(), slashes.end(), '\\', '/');
+  std::error_code unknown;
+  if (!std::filesystem::exists(folder / value.text(), unknown) &&
+      std::filesystem::exists(folder / slashes, unknown))
+    throw value.error("there is no file " + in_quotes(value.text()) + "; write " +
+                      in_quotes(slashes));
 }
 
 }  // namespace
@@ -35,6 +48,7 @@ FilePath read_path(const JsonValue& value) {
     throw value.unexpected("a path");
   const std::filesystem::path folder = std::filesystem::path(path.location.file).parent_path();
   path.resolved = (folder / path.written).string();
+  refuse_backslashes(value, folder);
   return path;
 }
 

@@ -80,12 +80,16 @@ struct ContactSpec {
   Location location;
 };
 
-enum class OutputField { positions, tractions };
+enum class OutputField { positions, velocities, tractions, stress, contacts };
 
 template <>
 struct Choices<OutputField> {
-  static constexpr std::array<Choice<OutputField>, 2> all = {
-      {{OutputField::positions, "positions"}, {OutputField::tractions, "tractions"}}};
+  static constexpr std::array<Choice<OutputField>, 5> all = {
+      {{OutputField::positions, "positions"},
+       {OutputField::velocities, "velocities"},
+       {OutputField::tractions, "tractions"},
+       {OutputField::stress, "stress"},
+       {OutputField::contacts, "contacts"}}};
 };
 
 /// Which surface of a body with a render mesh is written.
@@ -123,6 +127,7 @@ struct Scene {
   ContactSpec contact;
   OutputSpec output;
   std::vector<std::string> files;  ///< the scene file, and those that it includes
+  std::string text;                ///< of the scene file
   Location location;
   Location time_step_location;
 };

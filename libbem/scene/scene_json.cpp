@@ -111,7 +111,29 @@ void complete_places(Scene& scene) {
     if (body.place && !body.place->on.empty()) complete_place(*body.place, scene, obstacles);
 }
 
-Scene scene_from(const JsonDocument& document) {
+/// What of the scene may act on single vertices of a body, as the scene calls it, or empty.
+std::string what_acts_on(const Scene& scene, std::size_t b) {
+  const BodySpec& body = scene.bodies[b];
+  if (!body.fixed.empty()) return "\"fixed\"";
+  if (!body.handles.empty()) return "\"handles\"";
+  for (const JointSpec& joint : scene.joints)
+    if (joint.a.body == b || (joint.b && joint.b->body == b)) return "\"joints\"";
+  return scene.contact.enabled ? "\"contact\"" : "";
+}
+
+void check_loads(const Scene& scene) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const std::optional<BodySource>& source = scene.bodies[b].source;
+    if (!source || source->settings.loads != "none") continue;
+    const std::string acting = what_acts_on(scene, b);
+    if (source->settings.model != ModelKind::rigid && !acting.empty())
+      throw error_at(source->loads_location,
+                     "a body without loads cannot be held or touched, but " + acting +
+                         " of the scene may act on it; leave \"loads\" away");
+  }
+}
+
+Scene scene_of(const JsonDocument& document) {
   JsonReader reader(JsonValue(document, document.root()), "a scene");
   Scene scene;
   scene.files = document.files();
@@ -140,17 +162,25 @@ Scene scene_from(const JsonDocument& document) {
   if (const auto defaults = reader.optional("defaults")) check_defaults(*defaults);
   reader.finish();
   complete_places(scene);
+  check_loads(scene);
+  return scene;
+}
+
+Scene scene_from(JsonDocument document) {
+  std::string text = document.text();
+  Scene scene = scene_of(expanded_scene(std::move(document)));
+  scene.text = std::move(text);
   return scene;
 }
 
 }  // namespace
 
 Scene read_scene(const std::string& path) {
-  return scene_from(expanded_scene(JsonDocument::read(path)));
+  return scene_from(JsonDocument::read(path));
 }
 
 Scene parse_scene(const std::string& file, const std::string& text) {
-  return scene_from(expanded_scene(JsonDocument::parse(file, text)));
+  return scene_from(JsonDocument::parse(file, text));
 }
 
 }  // namespace bem

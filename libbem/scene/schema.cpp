@@ -260,15 +260,14 @@ const std::string& scene_schema() {
       }
     },
     "material": {
-      "description": "As in a material file.",
+      "description": "As in a material file, but for its time step.",
       "type": "object", "required": ["name", "density", "poisson_ratio"], "additionalProperties": false,
       "properties": {
         "name": {"description": "Any text.", "type": "string", "maxLength": 1000, "pattern": "^[^\\u0000-\\u001f\\u007f]*$"},
         "density": {"description": "Mass per volume [kg/m^3].", "$ref": "#/$defs/positive"},
         "poisson_ratio": {"description": "0.5 is incompressible.", "$ref": "#/$defs/quantity", "minimum": 0, "maximum": 0.5},
         "shear_modulus": {"description": "[Pa]", "$ref": "#/$defs/positive"},
-        "youngs_modulus": {"description": "[Pa]", "$ref": "#/$defs/positive"},
-        "time_step": {"description": "Time step of archives [s], where none is given.", "$ref": "#/$defs/positive"}
+        "youngs_modulus": {"description": "[Pa]", "$ref": "#/$defs/positive"}
       },
       "oneOf": [{"required": ["shear_modulus"]}, {"required": ["youngs_modulus"]}]
     },

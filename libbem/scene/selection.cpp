@@ -106,6 +106,15 @@ std::vector<int> select_triangles(const BodyGeometry& g, const Selection& s) {
   return triangles;
 }
 
+const Selection* selection_by_numbers(const BodySpec& body) {
+  const Selection* found = nullptr;
+  for_each_selection(body, [&](const Selection& s) {
+    if (s.kind == Selection::Kind::vertices || s.kind == Selection::Kind::triangles)
+      if (!found) found = &s;
+  });
+  return found;
+}
+
 std::string to_text(const Selection& s) {
   std::string text = std::to_string(static_cast<int>(s.kind));
   for (int index : s.indices) text += " " + std::to_string(index);

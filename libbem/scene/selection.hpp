@@ -23,6 +23,10 @@ void for_each_selection(Body& body, const Visit& visit) {
   for (auto& traction : body.tractions) visit(traction.select);
 }
 
+/// The first selection of a body by numbers of vertices or triangles, which are those of its mesh
+/// file and mean others, or none, of a mesh that is made of it; null if there is none.
+const Selection* selection_by_numbers(const BodySpec& body);
+
 /// The selection in a text that is another one for every other selection.
 std::string to_text(const Selection& selection);
 

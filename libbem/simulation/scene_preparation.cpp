@@ -37,15 +37,11 @@ MeshInput read_input(const std::string& path) {
   return input;
 }
 
-/// Numbers of vertices and triangles are those of the mesh file, and mean others, or none, of a
-/// mesh that was made of it.
 void refuse_numbers(const BodySpec& body) {
-  for_each_selection(body, [](const Selection& s) {
-    if (s.kind == Selection::Kind::vertices || s.kind == Selection::Kind::triangles)
-      throw error_at(s.location,
-                     "the mesh was repaired or remeshed, so that its vertices and triangles, and "
-                     "groups of them, have no numbers; select by a box, sphere or plane");
-  });
+  if (const Selection* numbers = selection_by_numbers(body))
+    throw error_at(numbers->location,
+                   "the mesh was repaired or remeshed, so that its vertices and triangles, and "
+                   "groups of them, have no numbers; select by a box, sphere or plane");
 }
 
 /// The steps of prepare_scene().
@@ -67,6 +63,7 @@ class ScenePreparation {
       else
         compare(body);
     }
+    if (!listed_.empty() && missing_ == MissingArchives::list && options_.listed) list();
     return listed_.size();
   }
 
@@ -83,6 +80,7 @@ class ScenePreparation {
   BodyPlan plan(const BodySpec& body, const BodyInputs& inputs);
   void compute(const BodySpec& body, const BodyInputs& inputs);
   void compare(const BodySpec& body);
+  void list();
 
   Scene& scene_;
   ArchiveSource& source_;
@@ -90,6 +88,7 @@ class ScenePreparation {
   MissingArchives missing_;
   const PreparationOptions& options_;
   std::set<std::string> listed_;                    ///< paths of archives that are missing
+  std::map<std::string, BodyGeometry> planned_;     ///< of these, by path
   std::vector<BodyInputs> inputs_;                  ///< by body; empty ones without a source
   std::map<std::string, MeshInput> meshes_;         ///< by path
   std::map<std::string, SimulatedMesh> simulated_;  ///< by path and what is done to it
@@ -165,9 +164,10 @@ void ScenePreparation::choose_time_step() {
       return crossing_time(simulated(*body.source, inputs_[b]), inputs_[b]);
     }));
   }
-  scene_.time_step = automatic_time_step(times, options_.frame_interval);
-  options_.note("the time step is " + to_text(scene_.time_step) +
-                " s, in eight of which a shear wave crosses the body that it crosses fastest");
+  const AutomaticTimeStep step = automatic_time_step(times, options_.frame_interval);
+  scene_.time_step = step.seconds;
+  for (BodyInputs& inputs : inputs_) inputs.automatic_time_step = true;
+  options_.note("the time step is " + to_text(step.seconds) + " s" + step.reason);
 }
 
 /// Everything that the bytes of an archive depend on.
@@ -193,9 +193,14 @@ void ScenePreparation::provide(BodySpec& body, BodyInputs& inputs) {
   inputs.settings.time_step = scene_.time_step;
   const std::string path = cache_.path_of(inputs.mesh, text_of_all(*body.source, inputs));
   body.archive.resolved = path;
+  if (missing_ == MissingArchives::count) {
+    if (!cache_.has(path)) listed_.insert(path);
+    return;
+  }
   if (missing_ == MissingArchives::list && !cache_.has(path)) {
     if (listed_.insert(path).second)
-      at_place_of_input(body.source->mesh.location, [&] { plan(body, inputs); });
+      at_place_of_input(body.source->mesh.location,
+                        [&] { planned_.emplace(path, plan(body, inputs).geometry); });
     return;
   }
   at_place_of_input(body.source->mesh.location, [&] {
@@ -241,6 +246,16 @@ void ScenePreparation::compute(const BodySpec& body, const BodyInputs& inputs) {
   const Provenance provenance = provenance_of(inputs, plan, options_.program);
   const BodyModel model = precompute(std::move(plan.geometry), plan.options, options_.progress);
   write_archive(body.archive.resolved, model, provenance, true, options_.progress);
+}
+
+void ScenePreparation::list() {
+  std::vector<const BodyGeometry*> geometries;
+  for (const BodySpec& body : scene_.bodies) {
+    const auto planned = planned_.find(body.archive.resolved);
+    geometries.push_back(planned == planned_.end() ? &source_.open(body.archive).geometry()
+                                                   : &planned->second);
+  }
+  options_.listed(geometries);
 }
 
 void ScenePreparation::compare(const BodySpec& body) {

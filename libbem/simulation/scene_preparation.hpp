@@ -17,13 +17,16 @@ struct PreparationOptions {
   double memory = 0;    ///< that matrices may take while they are computed [bytes]; 0: any
   std::optional<double> frame_interval;  ///< [s], of which an automatic time step is a whole part
   std::function<void(const std::string&)> note, warn;
+  /// Gets the geometries by body where MissingArchives::list finds archives missing.
+  std::function<void(const std::vector<const BodyGeometry*>&)> listed;
   Progress progress;
 };
 
 /// What prepare_scene() does with an archive that is not in the cache.
 enum class MissingArchives {
   compute,
-  list  ///< checks what the archive would be computed from, and says so with a note
+  list,  ///< checks what the archive would be computed from, and says so with a note
+  count  ///< nothing; nor are archives opened that are there
 };
 
 /// Gives a scene without a time step that of its archives, else automatic_time_step() for its

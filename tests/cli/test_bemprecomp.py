@@ -78,6 +78,8 @@ class Inputs(CliCase):
     def test_time_step_comes_from_option_or_material(self):
         done = self.run_tool("sphere.obj", "rubber.json", "-o", "a.bem")
         self.assertRegex(done.stderr, 'info: no time step is given: 0.[0-9]+ s, .*"auto"')
+        long = self.run_tool("sphere.obj", "rubber.json", "--dry-run", "--history", 61)
+        self.assertIn("the history is long: 61 steps; memory and time grow with it\n", long.stderr)
         self.material("timed.json", time_step=0.01)
         for arguments, dt in [([], 0.01), (["--dt", "0.02"], 0.02)]:
             self.run_tool("sphere.obj", "timed.json", "-o", "a.bem", "--force", *arguments)
@@ -219,6 +221,15 @@ class Messages(CliCase):
         self.assertIn("warning: the history is long: 61 steps",
                       self.precompute("--history", "61", "--dry-run").stderr)
         self.assertNotIn("warning", self.precompute("--history", "60", "--dry-run").stderr)
+
+    def test_meshes_in_millimetres_are_told_of(self):
+        (self.folder / "large.obj").write_text("".join(
+            "v " + " ".join(str(60 * float(x)) for x in line.split()[1:]) + "\n" if line.startswith("v ") else line
+            for line in (self.folder / "sphere.obj").open()))
+        done = self.run_tool("large.obj", "rubber.json", "--dry-run")
+        self.assertIn("info: large.obj: the body is 12 m large; a mesh in millimetres needs --mesh-scale 0.001\n", done.stderr)
+        self.assertNotIn("large;", self.run_tool("large.obj", "rubber.json", "--dry-run", "--mesh-scale", 1.1).stderr)
+        self.assertNotIn("large;", self.run_tool("sphere.obj", "rubber.json", "--dry-run").stderr)
 
     def test_growth_is_warned_about(self):
         # a history that is cut too short blows up

@@ -1,6 +1,7 @@
 """bemsim with bodies that are given by mesh and material: the cache, changed inputs, automatic time steps."""
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -108,12 +109,30 @@ class Cache(MeshCase):
         self.assertFalse((self.folder / "out").exists())
 
     def test_check_computes_nothing(self):
+        self.body["place"] = {"center": [1, 0, 0]}
+        self.scene["obstacles"] = [{"name": "floor", "plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}}]
         done = program("bemsim", self.written_scene(), "--check", "--cache", self.folder / "cache")
         self.assertIn("ball.obj: the matrices are not computed yet: 42 nodes", done.stderr)
         self.assertEqual(self.cached(), [])
+        self.assertIn("warning: ", done.stderr)
+        self.assertIn("obstacles touch nothing in a scene without contact", done.stderr)
+        place = re.search('body "ball"\n(  mesh coordinates .*\n  placed at +.0.9.*\n)', done.stdout)
+        self.assertTrue(place, done.stdout)
         self.run_scene()
         done = program("bemsim", self.written_scene(), "--check", "--cache", self.folder / "cache")
         self.assertIn("mesh ball.obj (bdf1", done.stdout)
+        self.assertIn(place[1], done.stdout)
+
+    def test_check_tells_of_meshes_in_millimetres(self):
+        lines = [line.split() for line in (self.folder / "ball.obj").open()]
+        (self.folder / "ball.obj").write_text("".join(
+            " ".join([w[0], *(str(1000 * float(x)) for x in w[1:])] if w and w[0] == "v" else w) + "\n" for w in lines))
+        check = lambda: program("bemsim", self.written_scene(), "--check", "--cache", self.folder / "cache").stderr
+        self.scene["time_step"] = 1
+        self.assertIn('info: ball.obj: the body is 200 m large; a mesh in millimetres needs "mesh_scale": 0.001\n',
+                      check().replace(f"{self.folder}/", ""))
+        self.body["mesh_scale"] = 0.001
+        self.assertNotIn("millimetres", check())
 
     def test_info_and_clean(self):
         self.run_scene()
@@ -279,7 +298,7 @@ f 4/1 3/2 2/3 1/4\nf 5/1 6/2 7/3 8/4
 class TimeStep(MeshCase):
     def test_automatic(self):
         self.scene["time_step"] = "auto"
-        self.assertIn("the time step is 0.0", self.run_scene().stderr)
+        self.assertRegex(self.run_scene().stderr, "the time step is 0.0.* s, in at least eight of which a shear wave crosses the body\n")
         del self.scene["time_step"]
         self.run_scene("--fps", 50)
         with h5py.File(self.folder / "out/trajectory.h5") as file:

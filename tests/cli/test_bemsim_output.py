@@ -25,7 +25,7 @@ class Trajectories(SimulationCase):
             self.assertEqual(file["time"].attrs["units"], "s")
             np.testing.assert_allclose(file["time"], DT * np.arange(5), rtol=1e-14)
             for body in file["bodies"].values():
-                self.assertEqual(set(body), {"positions", "faces", "frame", "tractions"})
+                self.assertEqual(set(body), {"positions", "faces", "frame", "series", "tractions"})
                 np.testing.assert_array_equal(body["faces"], faces)
                 self.assertEqual(body["faces"].dtype.kind, "i")
                 for name, (shape, units) in expected.items():
@@ -139,6 +139,12 @@ class Schedule(SimulationCase):
         self.scene["output"] = {"every": 10}
         self.assertEqual(self.times(), [0, 10, 20])
         self.assertEqual(self.times("--every", 20), [0, 20])
+
+    def test_frames_beyond_the_run(self):
+        for option, of in (("--every", 21), ("--fps", 1)):
+            done = self.simulate("--force", option, of)
+            self.assertIn("info: frames are farther apart than the run is long, 20 steps: only the start is written", done.stderr)
+        self.assertNotIn("farther apart", self.simulate("--force", "--every", 20).stderr)
 
     def test_fps_takes_the_nearest_steps(self):
         self.assertEqual(self.times("--fps", 40), [0, 3, 5, 8, 10, 13, 15, 18, 20])

@@ -37,6 +37,21 @@ class MeshRepair(unittest.TestCase):
         self.assertIn("nothing to repair", self.shape("repair", "cube.obj", "-o", "out.obj"))
         self.assertEqual(self.counts("out.obj"), (8, 12))
 
+    def test_a_closed_mesh_that_points_inward_is_turned(self):
+        self.write("inward.obj", [face[::-1] for face in SIDES])
+        said = self.shape("repair", "inward.obj", "-o", "out.obj")
+        self.assertIn("inward.obj: turned 12 triangles outward\n", said)
+        self.assertNotIn("nothing to repair", said)
+        self.assertIn("nothing to repair", self.shape("repair", "out.obj", "-o", "again.obj"))
+        self.assertEqual((self.folder / "out.obj").read_text(), (self.folder / "again.obj").read_text())
+
+    def test_options_out_of_range_are_named(self):
+        self.write("cube.obj", SIDES)
+        for options, text in [(["--alpha", 1e-9], "a wrap with --alpha 1e-09 would have about 4e+18 triangles; the least useful"),
+                              (["--offset", 1], "--offset must be in (0, 0.5]"),
+                              (["--nodes", "many"], '--nodes: "many" is not a number')]:
+            self.assertIn(text, self.shape("wrap", "cube.obj", "-o", "out.obj", *options, code=2))
+
     def test_other_formats_than_obj_are_not_pretended(self):
         self.write("cube.obj", SIDES)
         for command in (["repair", "cube.obj", "-o", "out.stl"], ["split", "cube.obj", "-o", "part-%d.ply"],
@@ -75,7 +90,7 @@ class MeshRepair(unittest.TestCase):
         self.write("sheet.obj", SHEET)
         said = self.shape("remesh", "sheet.obj", "-o", "out.obj", "--nodes", 100, code=3)
         self.assertIn('mend it with "bemshape repair sheet.obj -o repaired.obj"', said)
-        self.assertIn("alpha must be in (0, 1]", self.shape("wrap", "sheet.obj", "-o", "out.obj", "--alpha", 2, code=2))
+        self.assertIn("--alpha must be in (0, 1]", self.shape("wrap", "sheet.obj", "-o", "out.obj", "--alpha", 2, code=2))
         self.assertIn("-o would overwrite", self.shape("repair", "sheet.obj", "-o", "sheet.obj", code=2))
         self.write("line.obj", [[0, 1, 2]], [(0, 0, 0), (1, 0, 0), (2, 0, 0)])
         self.assertIn("cannot be repaired: no triangle has an area", self.shape("repair", "line.obj", "-o", "out.obj", code=3))

@@ -108,7 +108,7 @@ class Bemview(unittest.TestCase):
         self.refused("empty.h5", "-o", "v.html", code=4, parts=["empty.h5", "/time"])
         for place, change in [("/bodies/left/faces", lambda f: f["bodies/left/faces"].__setitem__((0, 0), 8)),
                               ("/bodies/left/positions", lambda f: f["bodies/left/positions"].__setitem__((80, 0, 0), float("nan"))),
-                              ("/contacts/ends", lambda f: f["contacts/ends"].__setitem__(80, 1e6)),
+                              ("/contacts/points", lambda f: f["contacts/counts"].__setitem__(80, 10**6)),
                               ("/bodies/left/von_mises", lambda f: f["bodies/left/von_mises"].__setitem__((3, 3), float("inf")))]:
             write_layout_2(self.folder / "t.h5")
             with h5py.File(self.folder / "t.h5", "r+") as file:

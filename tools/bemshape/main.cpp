@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "common/cli.hpp"
+#include "common/command_line.hpp"
 #include "mend.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/shapes.hpp"
@@ -73,7 +74,8 @@ class CommandLine {
 
  private:
   std::string message_of(const CLI::ParseError& e) const {
-    if (!app_.get_subcommands().empty()) return e.what();
+    const std::vector<CLI::App*> given = app_.get_subcommands();
+    if (!given.empty()) return bem::message_of(*given.front(), e);
     std::string shapes;
     for (const CLI::App* shape : app_.get_subcommands(nullptr))
       shapes += (shapes.empty() ? "" : ", ") + shape->get_name();

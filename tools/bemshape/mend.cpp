@@ -6,6 +6,7 @@
 #include "mesh/mesh_io.hpp"
 #include "output.hpp"
 #include "repair/repair.hpp"
+#include "repair/turn_outward.hpp"
 
 #include <filesystem>
 
@@ -32,13 +33,22 @@ RepairedMesh repaired(const MendOptions& o, const RepairOptions& options) {
   }
 }
 
+/// A closed surface that points inward is one that programs accept, but none that they should get.
+void turn(RepairedMesh& repaired, const std::string& name) {
+  const std::size_t turned = turn_outward(repaired.mesh, name);
+  if (turned == 0) return;
+  repaired.report.steps.push_back("turned " + count_text(turned, "triangle") + " outward");
+  repaired.report.changed = true;
+}
+
 void mend(const MendOptions& o, RepairMode mode, Log& log) {
   RepairOptions options = o.repair;
   options.mode = mode;
   options.fill_all_holes = o.fill_holes == "all";
   if (o.nodes) options.nodes = o.nodes;
   check_output(o);
-  const RepairedMesh result = repaired(o, options);
+  RepairedMesh result = repaired(o, options);
+  if (!result.report.changed) turn(result, o.input);
   write_obj(o.output, result.mesh);
   for (const std::string& step : result.report.steps) log.info(o.input + ": " + step);
   if (!result.report.changed) log.info(o.input + ": nothing to repair");

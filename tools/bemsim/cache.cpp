@@ -1,7 +1,8 @@
 #include "cache.hpp"
 
 #include "mesh/describe.hpp"
-#include "simulation/scene_preparation.hpp"
+#include "plan.hpp"
+#include "simulation/placement.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -32,17 +33,31 @@ bool needs_cache(const Scene& scene) {
 
 }  // namespace
 
-std::size_t prepare_archives(const Options& options, Scene& scene, ArchiveSource& source,
-                             const Progress& progress, Log& log) {
+PreparationOptions preparation_options(const Options& options, const Progress& progress, Log& log) {
   PreparationOptions preparation;
   preparation.program = version_text();
   preparation.memory = static_cast<double>(physical_memory());
   if (options.fps) preparation.frame_interval = 1 / *options.fps;
-  preparation.note = [&](const std::string& text) { log.info(text); };
-  preparation.warn = [&](const std::string& text) { log.warning(text); };
+  preparation.note = [&log](const std::string& text) { log.info(text); };
+  preparation.warn = [&log](const std::string& text) { log.warning(text); };
   preparation.progress = progress;
+  return preparation;
+}
+
+std::size_t prepare_archives(const Options& options, Scene& scene, ArchiveSource& source,
+                             const Progress& progress, Log& log) {
   const MissingArchives missing =
       options.action == Options::Action::check ? MissingArchives::list : MissingArchives::compute;
+  PreparationOptions preparation = preparation_options(options, progress, log);
+  preparation.listed = [&](const std::vector<const BodyGeometry*>& geometries) {
+    for (const std::string& warning : warnings_of_scene(scene)) log.warning(warning);
+    place_bodies(scene, geometries, source);
+    for (std::size_t b = 0; b < geometries.size(); ++b) {
+      std::cout << "body " << in_quotes(scene.bodies[b].name) << "\n";
+      print_place(std::cout, scene.bodies[b], *geometries[b]);
+    }
+    std::cout << std::flush;
+  };
   const std::size_t left =
       needs_cache(scene) ? prepare_scene(scene, source, cache_of(options), missing, preparation)
                          : 0;

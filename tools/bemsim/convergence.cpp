@@ -8,6 +8,7 @@
 #include "mesh/describe.hpp"
 #include "output/output_directory.hpp"
 #include "plan.hpp"
+#include "scene/selection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,24 +37,25 @@ void check_no_study(const Options& options) {
                   file + ": there is a study of an earlier run; --force replaces it");
 }
 
-void refuse_archives(const Scene& scene) {
-  for (const BodySpec& body : scene.bodies)
+void refuse_what_has_one_mesh(const Scene& scene) {
+  for (const BodySpec& body : scene.bodies) {
     if (!body.source || !body.archive.resolved.empty())
       throw error_at(body.archive.location,
                      "--convergence makes other meshes of the body " + in_quotes(body.name) +
                          ": give it \"mesh\" and \"material\" without an \"archive\"");
+    const Selection* numbers = selection_by_numbers(body);
+    if (numbers && body.source->settings.model != ModelKind::rigid)
+      throw error_at(numbers->location,
+                     "--convergence makes other meshes of the body, in which vertices and "
+                     "triangles, and groups of them, have no numbers; select by a box, sphere or "
+                     "plane");
+  }
 }
 
-/// What a run costs over the scene's own, about: what matrices and steps are seen to cost.
-struct CostFactors {
-  double precompute = 0, simulation = 0;
-
-  void add(const StudyLevel& level) {
-    const double nodes = std::exp2(1.6 * level.mesh), lags = 0.6 + 0.4 * std::exp2(level.time);
-    precompute += nodes * lags;
-    simulation += nodes * lags * std::exp2(level.time);
-  }
-};
+/// What matrices of a level cost over those of the scene, about, by what they are seen to cost.
+double cost_of_matrices(const StudyLevel& level) {
+  return std::exp2(1.6 * level.mesh) * (0.6 + 0.4 * std::exp2(level.time));
+}
 
 /// The runs of one study.
 class Study {
@@ -85,12 +87,16 @@ class Study {
   void run_scene() {
     Scene scene = scene_;
     ArchiveSource source(progress());
-    prepare_archives(options_, scene, source, progress(), log_);
+    prepare(scene, source, {}, MissingArchives::compute);
     scene_.time_step = scene.time_step;
     choose_levels(scene, source);
     simulate(std::move(scene), source, {});
   }
 
+  void tell_once(const StudyLevel& level, const std::string& warning);
+  std::size_t prepare(Scene& scene, ArchiveSource& source, const StudyLevel& level,
+                      MissingArchives missing);
+  bool is_prepared(const StudyLevel& level);
   void choose_levels(const Scene& scene, ArchiveSource& source);
   long every() const {
     if (options_.fps) return std::max(1L, std::lround(1 / (*options_.fps * scene_.time_step)));
@@ -121,8 +127,32 @@ class Study {
   StudyTimes times_;
   std::vector<StudyRun> runs_;
   std::vector<StudyCost> costs_;
-  std::set<std::string> told_;  ///< warnings, which runs may have in common
+  std::set<std::string> told_;  ///< what was said, which runs may have in common
 };
+
+/// Names the run, if it is not the scene's own.
+void Study::tell_once(const StudyLevel& level, const std::string& warning) {
+  if (!told_.insert(warning).second) return;
+  const bool own = level.mesh == 0 && level.time == 0;
+  log_.warning(own ? warning : "the run with " + label(level) + ": " + warning);
+}
+
+/// Returns how many archives are missing.
+std::size_t Study::prepare(Scene& scene, ArchiveSource& source, const StudyLevel& level,
+                           MissingArchives missing) {
+  PreparationOptions preparation = preparation_options(options_, progress(), log_);
+  preparation.note = [this](const std::string& text) {
+    if (told_.insert(text).second) log_.info(text);
+  };
+  preparation.warn = [&](const std::string& text) { tell_once(level, text); };
+  return prepare_scene(scene, source, cache_, missing, preparation);
+}
+
+bool Study::is_prepared(const StudyLevel& level) {
+  Scene scene = scene_at(scene_, level, nodes_);
+  ArchiveSource source(progress());
+  return prepare(scene, source, level, MissingArchives::count) == 0;
+}
 
 void Study::choose_levels(const Scene& scene, ArchiveSource& source) {
   std::size_t least = 0, total = 0;
@@ -143,6 +173,12 @@ void Study::choose_levels(const Scene& scene, ArchiveSource& source) {
                                       "is shorter than a time step");
   const LevelRange times = possible_times(options_.levels, steps);
   times_ = study_times(steps, every(), times);
+  if (every() > steps)
+    log_.info("frames are farther apart than the run is long, " +
+              count_text(static_cast<std::size_t>(steps), "step") +
+              ": the motions are compared at " +
+              count_text(static_cast<std::size_t>(times_.count + 1), "time") +
+              " in their place (--every, --fps, \"every\")");
   levels_ = study_levels(
       total == 0 ? LevelRange{0, 0} : possible_meshes(options_.levels, least, total), times);
 }
@@ -157,26 +193,32 @@ void Study::keep_places(const Scene& placed) {
 }
 
 void Study::announce() {
-  CostFactors factors;
-  for (std::size_t k = 1; k < levels_.size(); ++k) factors.add(levels_[k]);
   const StudyCost& own = costs_[0];
-  const double expected = factors.precompute * own.precompute_seconds.value_or(0) +
-                          factors.simulation * own.simulation_seconds;
+  double expected = 0;
+  std::size_t prepared = 0;
+  for (std::size_t k = 1; k < levels_.size(); ++k) {
+    const double matrices = cost_of_matrices(levels_[k]);
+    expected += matrices * std::exp2(levels_[k].time) * own.simulation_seconds;
+    if (is_prepared(levels_[k]))
+      ++prepared;
+    else
+      expected += matrices * own.precompute_seconds.value_or(0);
+  }
   bar_.finish();
-  log_.info(
-      "the scene took " + seconds_text(own.simulation_seconds) + " of processor time" +
-      (own.precompute_seconds ? " and its matrices " + seconds_text(*own.precompute_seconds)
-                              : std::string(" without its matrices")) +
-      "; " + count_text(levels_.size() - 1, "more run") + ", up to " + label(levels_.back()) +
-      ", take about " + seconds_text(expected) +
-      " more (--coarser and --finer choose them; matrices that are in the cache cost nothing)");
+  log_.info("the scene took " + seconds_text(own.simulation_seconds) + " of processor time" +
+            (own.precompute_seconds ? " and its matrices " + seconds_text(*own.precompute_seconds)
+                                    : std::string(" without its matrices")) +
+            "; " + count_text(levels_.size() - 1, "more run") + ", up to " + label(levels_.back()) +
+            ", take about " + seconds_text(expected) + " more (--coarser and --finer choose them" +
+            (prepared > 0 ? "; the matrices of " + std::to_string(prepared) + " are in the cache)"
+                          : std::string(")")));
 }
 
 void Study::run_level(const StudyLevel& level) {
   try {
     Scene scene = scene_at(scene_, level, nodes_);
     ArchiveSource source(progress());
-    prepare_archives(options_, scene, source, progress(), log_);
+    prepare(scene, source, level, MissingArchives::compute);
     simulate(std::move(scene), source, level);
   } catch (const Interrupted& e) {
     throw Interrupted(e.signal(), "; " + std::to_string(runs_.size()) + " of " +
@@ -195,8 +237,7 @@ void Study::simulate(Scene scene, ArchiveSource& source, const StudyLevel& level
   options.duration = static_cast<double>(times_.steps()) * scene_.time_step;
   const std::unique_ptr<Plan> plan = make_plan(options, std::move(scene), source);
   if (runs_.empty()) keep_places(plan->scene);
-  for (const std::string& warning : plan->warnings)
-    if (told_.insert(warning).second) log_.warning(warning);
+  for (const std::string& warning : plan->warnings) tell_once(level, warning);
   check_memory(*plan);
   StudyCost cost = cost_of(*plan);
   PhaseTimer timer;
@@ -241,7 +282,7 @@ std::vector<std::string> convergence_files(const Options& options) {
 }
 
 int run_convergence(const Options& options, const Scene& scene, std::ostream& out, Log& log) {
-  refuse_archives(scene);
+  refuse_what_has_one_mesh(scene);
   const FolderLock lock = create_output_directory(options.output);
   check_no_study(options);
   const StudyReport report = Study(options, scene, log).run();

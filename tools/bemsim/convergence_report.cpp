@@ -92,6 +92,7 @@ std::string order_text(const Trend& trend) {
 /// What is to be said of one series and one quantity.
 std::string series_text(const std::string& what, const SeriesResult& series,
                         const QuantityResult& quantity, double expected_order) {
+  if (series.same) return what + ": the same in all runs, to rounding\n";
   constexpr double kNothing = 1e-6;
   const Trend& trend = series.trend;
   if (trend.converges && relative(series.scene_error, quantity) < kNothing)
@@ -113,6 +114,7 @@ std::string series_text(const std::string& what, const SeriesResult& series,
 
 std::string quantity_text(const std::string& name, const QuantityResult& quantity,
                           double time_order) {
+  if (quantity.size == 0 && quantity.same()) return name + ": none in any run\n";
   std::string text;
   if (quantity.mesh)
     text += series_text(name + " and meshes", *quantity.mesh, quantity, kExpectedMeshOrder);
@@ -133,7 +135,7 @@ std::string touch_text(const StudyReport& report) {
 
 std::string advice_text(const StudyReport& report) {
   const QuantityResult& q = report.result.all.position;
-  if (!q.converges() || !q.mesh || !q.time) return "";
+  if (!q.converges() || !q.mesh || !q.time || q.same()) return "";
   constexpr double kMore = 2;
   const double mesh = q.mesh->scene_error, time = q.time->scene_error;
   if (mesh > kMore * time)
@@ -166,7 +168,8 @@ std::string bodies_text(const StudyReport& report) {
 
 Json trend_json(const std::optional<SeriesResult>& series) {
   if (!series) return nullptr;
-  Json out{{"runs", series->runs}, {"converges", series->trend.converges}};
+  Json out{{"runs", series->runs}, {"same", series->same}};
+  out["converges"] = series->same ? Json(nullptr) : Json(series->trend.converges);
   out["order"] = series->trend.order ? Json(*series->trend.order) : Json(nullptr);
   out["scene_error"] = series->trend.converges ? Json(series->scene_error) : Json(nullptr);
   return out;
@@ -212,6 +215,8 @@ std::string report_text(const StudyReport& report) {
           " times, of differences from the finest run; positions over the motion, " +
           rounded_text(all.position.size, 3) + " m, deformation over its own size, " +
           rounded_text(all.deformation.size, 3) + " m; precomputed, simulated: processor time\n\n";
+  if (all.position.size == 0 && all.position.same())
+    return text + "nothing moves in any run: there is nothing to compare\n";
   text += quantity_text("positions", all.position, time_order);
   text += quantity_text("deformation", all.deformation, time_order);
   return text + touch_text(report) + advice_text(report) + bodies_text(report);
@@ -236,9 +241,11 @@ Json report_json(const StudyReport& report) {
 LogPlot report_plot(const StudyReport& report) {
   const QuantityResult& q = report.result.all.position;
   LogPlot plot;
-  plot.title =
-      "Positions: " + std::string(q.converges() ? "error" : "difference from the finest run") +
-      " against processor time";
+  plot.title = q.same()
+                   ? "Positions: the same in all runs"
+                   : "Positions: " +
+                         std::string(q.converges() ? "error" : "difference from the finest run") +
+                         " against processor time";
   plot.x_name = "precomputation and simulation [s]";
   plot.y_name = "% of the motion";
   const auto point = [&](std::size_t k, const std::string& label) {

@@ -43,6 +43,10 @@ void apply_options(const Options& o, Plan& plan) {
         "--fps asks for more frames than there are steps: every step is "
         "written, " +
         to_text(1 / scene.time_step) + " per second");
+  if (plan.steps > 0 && plan.frames() == 1)
+    plan.notes.push_back("frames are farther apart than the run is long, " +
+                         count_text(static_cast<std::size_t>(plan.steps), "step") +
+                         ": only the start is written (--every, --fps, \"every\")");
 }
 
 PlannedBody plan_body(const Scene& scene, const BodySpec& spec, ArchiveSource& source) {
@@ -107,11 +111,7 @@ std::string weld_text(const Plan& plan, const WeldPlan& weld) {
 }
 
 void add_warnings(Plan& plan) {
-  if (!plan.scene.obstacles.empty() && !plan.scene.contact.enabled)
-    plan.warnings.push_back(
-        where(plan.scene.obstacles[0].location) +
-        ": obstacles touch nothing in a scene without contact; add \"contact\": "
-        "{} to it");
+  for (const std::string& warning : warnings_of_scene(plan.scene)) plan.warnings.push_back(warning);
   std::set<const Archive*> seen, old;
   for (const PlannedBody& body : plan.bodies) {
     const double growth = body.archive->report().growth * body.archive->window();
@@ -210,11 +210,7 @@ void print_body(std::ostream& out, const PlannedBody& body, const Vec3& gravity)
   if (!spec.angular_velocity.isZero(0))
     out << ", angular velocity " << vector_text(spec.angular_velocity, "rad/s");
   out << "\n";
-  std::vector<Vec3> placed;
-  for (const Vec3& x : mesh.vertices)
-    placed.emplace_back(spec.position + spec.rotation.matrix() * x);
-  out << "  mesh coordinates " << box_text(bounding_box(mesh.vertices)) << " m\n"
-      << "  placed at        " << box_text(bounding_box(placed)) << " m\n";
+  print_place(out, spec, body.archive->geometry());
   if (body.render) out << "  " << render_mesh_text(body) << "\n";
   if (body.fixed > 0) out << "  fixed: " << count_text(body.fixed, "vertex") << "\n";
   if (body.handled > 0)
@@ -278,6 +274,20 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
   return plan;
 }
 
+std::vector<std::string> warnings_of_scene(const Scene& scene) {
+  if (scene.obstacles.empty() || scene.contact.enabled) return {};
+  return {where(scene.obstacles[0].location) +
+          ": obstacles touch nothing in a scene without contact; add \"contact\": {} to it"};
+}
+
+void print_place(std::ostream& out, const BodySpec& body, const BodyGeometry& geometry) {
+  const std::vector<Vec3>& vertices = geometry.input.vertices;
+  std::vector<Vec3> placed;
+  for (const Vec3& x : vertices) placed.emplace_back(body.position + body.rotation.matrix() * x);
+  out << "  mesh coordinates " << box_text(bounding_box(vertices)) << " m\n"
+      << "  placed at        " << box_text(bounding_box(placed)) << " m\n";
+}
+
 std::string Plan::impossible(double time) const {
   for (const Twist& twist : twists)
     if (time >= twist.since) return short_twist_text(scene, twist);
@@ -308,9 +318,12 @@ void print_plan(std::ostream& out, const Plan& plan) {
   out << "output:  " << count_text(static_cast<std::size_t>(plan.frames()), "frame") << " as";
   for (const OutputFormat* format : scene.output.formats)
     out << (format == scene.output.formats.front() ? " " : ", ") << format->name;
-  const auto& fields = scene.output.fields;
-  if (std::count(fields.begin(), fields.end(), OutputField::tractions) > 0)
-    out << ", with tractions";
+  bool first = true;
+  for (OutputField field : scene.output.fields) {
+    if (field == OutputField::positions) continue;
+    out << (first ? ", with " : ", ") << choice_name(field);
+    first = false;
+  }
   out << "\n";
   if (scene.contact.enabled)
     out << "contact: " << count_text(scene.obstacles.size(), "obstacle")

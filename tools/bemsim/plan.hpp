@@ -58,6 +58,12 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
 /// Throws ErrorCode::resources if the machine cannot hold the matrices.
 void check_memory(const Plan& plan);
 
+/// What is to be said of a scene whatever its archives are.
+std::vector<std::string> warnings_of_scene(const Scene& scene);
+
+/// Where a body of the scene is: "  placed at ..." with the boxes of its mesh.
+void print_place(std::ostream& out, const BodySpec& body, const BodyGeometry& geometry);
+
 void print_plan(std::ostream& out, const Plan& plan);
 
 }  // namespace bem

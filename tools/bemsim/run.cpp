@@ -6,8 +6,8 @@
 #include "files/pending_file.hpp"
 #include "mesh/describe.hpp"
 #include "output/output_directory.hpp"
+#include "recorded_bodies.hpp"
 #include "stats.hpp"
-#include "trajectory_bodies.hpp"
 #include "writers.hpp"
 
 #include <algorithm>
@@ -29,6 +29,7 @@ class Run {
     if (options.resume) earlier = open_checkpoint(options.output, identity_, plan.steps, saved_);
     simulation_ = std::make_unique<Simulation>(plan.scene, source);
     statistics_.prepare(*simulation_);
+    recorder_ = make_recorder(plan);
     check_interrupt();
     bar_.finish();
     log_.detail(bytes_text(static_cast<double>(simulation_->matrix_bytes())) +
@@ -40,7 +41,8 @@ class Run {
     prepare_output_directory(options.output, options.resume  ? ExistingOutput::keep
                                              : options.force ? ExistingOutput::replace
                                                              : ExistingOutput::refuse);
-    writers_ = std::make_unique<Writers>(plan, options.output, kept_frames(), kept_);
+    writers_ = std::make_unique<Writers>(plan.scene.output.formats, recorder_->contents(),
+                                         options.output, frames(), kept_);
   }
 
   /// Steps to the end, a failure or an interruption, and completes the files in each case.
@@ -99,12 +101,13 @@ class Run {
     earlier.finish();
     earlier.check(simulation_->steps() == saved_ && saved_ >= 0 &&
                   statistics_.frames() == plan_.schedule.count(saved_));
-    check_output_records(plan_, options_.output, kept_frames(), kept_);
+    check_output_records(plan_.scene.output.formats, recorder_->contents(), options_.output,
+                         frames(), kept_);
     log_.info("going on from t = " + to_text(simulation_->time()) + " s: " + progress());
     timer_.begin(kLoadingPhase);
   }
 
-  std::size_t kept_frames() const { return static_cast<std::size_t>(statistics_.frames()); }
+  std::size_t frames() const { return static_cast<std::size_t>(statistics_.frames()); }
 
   /// After the frames of the state, which are on the disk when it is.
   void save() {
@@ -128,12 +131,7 @@ class Run {
 
   void write_frame() {
     timer_.begin(kOutputPhase);
-    Frame frame;
-    frame.index = static_cast<std::size_t>(statistics_.frames());
-    frame.step = static_cast<std::size_t>(simulation_->steps());
-    frame.time = simulation_->time();
-    frame.bodies = body_frames(plan_, *simulation_);
-    writers_->write(frame);
+    writers_->write(recorder_->frame(*simulation_, frames()));
     statistics_.record_frame();
   }
 
@@ -175,6 +173,7 @@ class Run {
   ProgressBar bar_;
   std::unique_ptr<PendingFile> stats_file_;
   std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Recorder> recorder_;
   OutputRecords kept_;  ///< of the frames of an earlier run
   std::unique_ptr<Writers> writers_;
 };

@@ -1,13 +1,12 @@
 #include "writers.hpp"
 
 #include "base/error.hpp"
-#include "trajectory_bodies.hpp"
 
 namespace bem {
-void check_output_records(const Plan& plan, const std::string& directory, std::size_t frames,
+
+void check_output_records(const OutputFormats& formats, const TrajectoryContents& contents,
+                          const std::string& directory, std::size_t frames,
                           const OutputRecords& records) {
-  const std::vector<TrajectoryBody> bodies = trajectory_bodies(plan);
-  const auto& formats = plan.scene.output.formats;
   require(records.size() == formats.size(), "a checkpoint knows the files of every format");
   const auto refuse = [](const std::string& text) {
     throw Error(ErrorCode::invalid_input,
@@ -18,7 +17,7 @@ void check_output_records(const Plan& plan, const std::string& directory, std::s
   for (std::size_t i = 0; i < formats.size(); ++i) {
     FileRecords found;
     try {
-      found = formats[i]->read_records(directory, bodies, frames);
+      found = formats[i]->read_records(directory, contents, frames);
     } catch (const Error& e) {
       if (e.code() != ErrorCode::invalid_input) throw;
       refuse(e.what());
@@ -28,11 +27,10 @@ void check_output_records(const Plan& plan, const std::string& directory, std::s
   }
 }
 
-Writers::Writers(const Plan& plan, const std::string& directory, std::size_t kept,
-                 const OutputRecords& records) {
-  const std::vector<TrajectoryBody> bodies = trajectory_bodies(plan);
-  for (const OutputFormat* format : plan.scene.output.formats) {
-    writers_.push_back(format->make_writer(directory, bodies, kept));
+Writers::Writers(const OutputFormats& formats, const TrajectoryContents& contents,
+                 const std::string& directory, std::size_t kept, const OutputRecords& records) {
+  for (const OutputFormat* format : formats) {
+    writers_.push_back(format->make_writer(directory, contents, kept));
     if (kept > 0) writers_.back()->set_records(records[writers_.size() - 1]);
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "output/trajectory_file.hpp"
+#include "output/trajectory_layout.hpp"
 #include "quantisation.hpp"
 
 #include <string>

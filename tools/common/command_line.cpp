@@ -53,7 +53,18 @@ std::string suggestion(const CLI::App& app, const std::string& typed) {
   return nearest.empty() ? "; run with --help for the options" : "; did you mean " + nearest + "?";
 }
 
-/// What CLI11 says, where it can be said better.
+}  // namespace
+
+void set_up_help(CLI::App& app, const std::string& usage) {
+  app.set_version_flag("--version", version_text(), "print the version");
+  app.set_help_flag("-h,--help", "print this help");
+  app.formatter(std::make_shared<HelpFormatter>(usage));
+  app.footer(
+      "Exit codes: 0 ok, 1 internal error, 2 usage, 3 invalid input, 4 archive, 5 numerical "
+      "failure,\n"
+      "6 memory, disk or permission, 130 and 143 interrupted");
+}
+
 std::string message_of(const CLI::App& app, const CLI::ParseError& e) {
   const std::string text = e.what();
   const std::string unconverted = "Could not convert: ";
@@ -65,20 +76,10 @@ std::string message_of(const CLI::App& app, const CLI::ParseError& e) {
   const CLI::Option* option =
       dynamic_cast<const CLI::ArgumentMismatch*>(&e) ? app.get_option_no_throw(name) : nullptr;
   if (!option) return text;
+  if (static_cast<int>(option->count()) > option->get_items_expected_max())
+    return name + " is given more than once";
   const int values = option->get_items_expected_min();
   return name + (values == 1 ? " needs a value" : " needs " + std::to_string(values) + " values");
-}
-
-}  // namespace
-
-void set_up_help(CLI::App& app, const std::string& usage) {
-  app.set_version_flag("--version", version_text(), "print the version");
-  app.set_help_flag("-h,--help", "print this help");
-  app.formatter(std::make_shared<HelpFormatter>(usage));
-  app.footer(
-      "Exit codes: 0 ok, 1 internal error, 2 usage, 3 invalid input, 4 archive, 5 numerical "
-      "failure,\n"
-      "6 memory, disk or permission, 130 and 143 interrupted");
 }
 
 bool parse_command_line(CLI::App& app, int argc, const char* const* argv,

@@ -67,3 +67,38 @@ TEST_CASE("Rigid bodies have time steps alone", "[study]") {
   REQUIRE(q.time);
   CHECK(q.time->scene_error == Approx(0.01 * std::sqrt(0.625)).epsilon(0.01));
 }
+
+TEST_CASE("What differs by rounding alone has no trend, and what rounding moves has no size",
+          "[study]") {
+  std::vector<StudyRun> runs = runs_of({2, 1}, {2, 1});
+  double noise = 1;
+  for (StudyRun& run : runs)
+    for (BodyMotion& motion : run.motions) {
+      noise = -1.7 * noise + 0.3;
+      if (std::abs(noise) > 1000) noise = 1;
+      motion.position = {1 + 1e-16 * noise, 2, -3};
+      motion.deformation = {1e-16 * noise, 0, 0};
+    }
+  const MotionResult all = evaluate_study(runs, 1).all;
+  CHECK(all.position.size > 0);
+  CHECK(all.deformation.size == 0);
+  for (const QuantityResult* q : {&all.position, &all.deformation}) {
+    CHECK(q->same());
+    CHECK(q->converges());
+    CHECK(!q->mesh->trend.order);
+    CHECK(q->time->scene_error == 0);
+    CHECK(q->error == std::vector<double>(runs.size(), 0));
+    CHECK(q->from_finest == std::vector<double>(runs.size(), 0));
+  }
+  CHECK(!all.rigid.same());
+}
+
+TEST_CASE("Meshes that change nothing leave the trend of time steps", "[study]") {
+  std::vector<StudyRun> runs = runs_of({1, 1}, {1, 1});
+  for (StudyRun& run : runs)
+    for (BodyMotion& motion : run.motions) motion.position[0] = 1;
+  const QuantityResult q = evaluate_study(runs, 1).bodies[0].position;
+  CHECK(q.mesh->same);
+  CHECK(!q.same());
+  CHECK(q.error[0] == Approx(0.01).epsilon(0.01));
+}

@@ -1,5 +1,6 @@
 #include "convergence/log_plot.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -12,6 +13,17 @@ std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
   return n;
+}
+
+/// Heights of the texts with a label.
+std::vector<double> heights(const std::string& svg, const std::string& label) {
+  std::vector<double> out;
+  for (std::size_t at = svg.find('>' + label); at != std::string::npos;
+       at = svg.find('>' + label, at + 1)) {
+    const std::size_t y = svg.find(" y=\"", svg.rfind("<text", at));
+    out.push_back(std::stod(svg.substr(y + 4)));
+  }
+  return out;
 }
 
 }  // namespace
@@ -41,4 +53,14 @@ TEST_CASE("A plot without points, or with one, is a plot", "[plot]") {
     CHECK(svg.find("</svg>") != std::string::npos);
     CHECK(svg.find("nan") == std::string::npos);
   }
+}
+
+TEST_CASE("Labels of points at one place do not lie on each other", "[plot]") {
+  std::vector<PlotSeries> series(2);
+  for (PlotSeries& one : series)
+    for (int k = 0; k < 4; ++k) one.points.push_back({5, 5 + 0.01 * k, "label"});
+  std::vector<double> all = heights(svg_of({"t", "x", "y", series}), "label");
+  REQUIRE(all.size() == 8);
+  std::sort(all.begin(), all.end());
+  for (std::size_t k = 1; k < all.size(); ++k) CHECK(all[k] - all[k - 1] > 10);
 }

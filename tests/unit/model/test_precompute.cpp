@@ -113,6 +113,8 @@ TEST_CASE("the memory estimate counts the stored matrices") {
   const double dense = stored_bytes(g, o);
   CHECK(dense == Approx(unknowns * unknowns * 4 * 2 * 20).epsilon(0.02));
   CHECK(peak_bytes(g, o, dense) > dense);
+  const BodyGeometry tiny = geometry_of(icosphere(0, 1), m.density);
+  CHECK(peak_bytes(tiny, o, stored_bytes(tiny, o)) == Approx(4.5e7).epsilon(0.1));  // the program
   o.codec = CodecOptions(codec_named("lowrank"));
   const std::pair<Loads, InverseKind> variants[] = {{Loads::all, InverseKind::iterative},
                                                     {Loads::none, InverseKind::dense}};

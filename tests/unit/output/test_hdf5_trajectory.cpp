@@ -15,6 +15,7 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using test::error_message;
 using test::sample_bodies;
+using test::sample_contents;
 using test::sample_frame;
 
 namespace {
@@ -24,8 +25,10 @@ constexpr std::size_t kFrames = 7;
 /// Forty bodies of several sizes: more than are written frame by frame.
 std::vector<TrajectoryBody> many_bodies() {
   std::vector<TrajectoryBody> bodies;
-  for (std::size_t b = 0; b < 40; ++b)
-    bodies.push_back({"body " + std::to_string(b), 4 + b % 37, {{0, 1, 2}}, b % 5 == 0});
+  for (std::size_t b = 0; b < 40; ++b) {
+    bodies.push_back({"body " + std::to_string(b), 4 + b % 37, {{0, 1, 2}}, {}});
+    if (b % 5 == 0) bodies.back().fields = {{"tractions", "Pa", 3}};
+  }
   return bodies;
 }
 
@@ -35,8 +38,9 @@ Frame many_bodies_frame(std::size_t index) {
     BodyFrame state;
     for (std::size_t v = 0; v < body.vertices; ++v)
       state.positions.push_back(Vec3(double(index), double(v), double(body.vertices)));
-    if (body.tractions) state.tractions = state.positions;
-    state.translation = Vec3(double(index), 1, 2);
+    if (!body.fields.empty())
+      state.fields = {std::vector<double>(3 * body.vertices, double(index))};
+    state.frame.translation = Vec3(double(index), 1, 2);
     frame.bodies.push_back(state);
   }
   return frame;
@@ -56,13 +60,22 @@ void check_frames(const Hdf5File& file, std::size_t frames) {
       CHECK(points == state.positions);
       Vec3 translation;
       file.read_rows(path + "/frame/translation", f, 1, translation.data());
-      CHECK(translation == state.translation);
+      CHECK(translation == state.frame.translation);
       Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rotation;
       file.read_rows(path + "/frame/rotation", f, 1, rotation.data());
-      CHECK(Mat3(rotation) == state.rotation);
-      if (!bodies[b].tractions) continue;
-      file.read_rows(path + "/tractions", f, 1, points.data()->data());
-      CHECK(points == state.tractions);
+      CHECK(Mat3(rotation) == state.frame.rotation);
+      for (std::size_t i = 0; i < bodies[b].fields.size(); ++i) {
+        std::vector<double> values(state.fields[i].size());
+        file.read_rows(path + "/" + bodies[b].fields[i].name, f, 1, values.data());
+        CHECK(values == state.fields[i]);
+      }
+      if (bodies[b].series.empty()) continue;
+      Vec3 momentum;
+      double ratio = 0;
+      file.read_rows(path + "/series/momentum", f, 1, momentum.data());
+      file.read_rows(path + "/series/volume_ratio", f, 1, &ratio);
+      CHECK(momentum == Vec3(state.series[0], state.series[1], state.series[2]));
+      CHECK(ratio == state.series[3]);
     }
   }
 }
@@ -109,7 +122,7 @@ std::string reader_output(std::size_t frames) {
 
 TEST_CASE("a trajectory holds what was written") {
   const test::TemporaryFolder folder("trajectory");
-  Hdf5Trajectory writer(folder.path(), sample_bodies());
+  Hdf5Trajectory writer(folder.path(), sample_contents());
   for (std::size_t f = 0; f < kFrames; ++f) writer.write(sample_frame(f));
   writer.close();
   const Hdf5File file = Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive);
@@ -125,7 +138,7 @@ TEST_CASE("a trajectory holds what was written") {
 
 TEST_CASE("every dataset of a trajectory names its unit") {
   const test::TemporaryFolder folder("trajectory_units");
-  Hdf5Trajectory(folder.path(), sample_bodies()).close();
+  Hdf5Trajectory(folder.path(), sample_contents()).close();
   const Hdf5File file = Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive);
   const std::string body = "/bodies/small";
   CHECK(file.string_attribute("/time", "units") == "s");
@@ -138,7 +151,7 @@ TEST_CASE("every dataset of a trajectory names its unit") {
 
 TEST_CASE("one vertex can be followed through time") {
   const test::TemporaryFolder folder("trajectory_vertex");
-  Hdf5Trajectory writer(folder.path(), sample_bodies());
+  Hdf5Trajectory writer(folder.path(), sample_contents());
   for (std::size_t f = 0; f < kFrames; ++f) writer.write(sample_frame(f));
   writer.close();
   const Hdf5File file = Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive);
@@ -152,7 +165,7 @@ TEST_CASE("one vertex can be followed through time") {
 TEST_CASE("a trajectory can be read while it is written and after") {
   if (!have_h5py()) return;
   const test::TemporaryFolder folder("trajectory_live");
-  Hdf5Trajectory writer(folder.path(), sample_bodies());
+  Hdf5Trajectory writer(folder.path(), sample_contents());
   for (std::size_t f = 0; f < kFrames; ++f) {
     writer.write(sample_frame(f));
     if (f % 3 == 0)
@@ -165,7 +178,7 @@ TEST_CASE("a trajectory can be read while it is written and after") {
 TEST_CASE("a writer that goes away without close leaves its frames") {
   const test::TemporaryFolder folder("trajectory_destroyed");
   {
-    Hdf5Trajectory writer(folder.path(), sample_bodies());
+    Hdf5Trajectory writer(folder.path(), sample_contents());
     for (std::size_t f = 0; f < 3; ++f) writer.write(sample_frame(f));
   }
   check_frames(Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive), 3);
@@ -176,7 +189,7 @@ TEST_CASE("a writer that is killed leaves its frames") {
   const test::TemporaryFolder folder("trajectory_killed");
   const pid_t child = fork();
   if (child == 0) {
-    Hdf5Trajectory writer(folder.path(), sample_bodies());
+    Hdf5Trajectory writer(folder.path(), sample_contents());
     for (std::size_t f = 0; f < 3; ++f) writer.write(sample_frame(f));
     std::raise(SIGKILL);
   }
@@ -190,7 +203,7 @@ TEST_CASE("the same trajectory twice gives the same bytes") {
   const test::TemporaryFolder folder("trajectory_bytes");
   std::string bytes[2];
   for (std::string& text : bytes) {
-    Hdf5Trajectory writer(folder.path(), sample_bodies());
+    Hdf5Trajectory writer(folder.path(), sample_contents());
     for (std::size_t f = 0; f < 3; ++f) writer.write(sample_frame(f));
     writer.close();
     text = test::read_file(folder / "trajectory.h5");
@@ -305,7 +318,7 @@ TEST_CASE("of frames that wait those are kept that the disk has room for") {
 
 TEST_CASE("frames come in their order and with all bodies") {
   const test::TemporaryFolder folder("trajectory_order");
-  Hdf5Trajectory writer(folder.path(), sample_bodies());
+  Hdf5Trajectory writer(folder.path(), sample_contents());
   writer.write(sample_frame(0));
   CHECK_THROWS_AS(writer.write(sample_frame(0)), Error);
   CHECK_THROWS_AS(writer.write(sample_frame(2)), Error);
@@ -335,13 +348,13 @@ TEST_CASE("a trajectory whose writer was killed can go on") {
   const test::TemporaryFolder folder("trajectory_killed_on");
   const pid_t child = fork();
   if (child == 0) {
-    Hdf5Trajectory writer(folder.path(), sample_bodies());
+    Hdf5Trajectory writer(folder.path(), sample_contents());
     for (std::size_t f = 0; f < 5; ++f) writer.write(sample_frame(f));
     std::raise(SIGKILL);
   }
   int status = 0;
   REQUIRE(waitpid(child, &status, 0) == child);
-  Hdf5Trajectory writer(folder.path(), sample_bodies(), 4);
+  Hdf5Trajectory writer(folder.path(), sample_contents(), 4);
   for (std::size_t f = 4; f < kFrames; ++f) writer.write(sample_frame(f));
   writer.close();
   check_frames(Hdf5File::open(folder / "trajectory.h5", ErrorCode::archive), kFrames);

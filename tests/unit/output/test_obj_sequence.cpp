@@ -29,11 +29,11 @@ TEST_CASE("OBJ frames hold the vertices and faces of the mesh, bit by bit") {
 
 TEST_CASE("an OBJ frame replaces an older one") {
   const test::TemporaryFolder folder("obj_again");
-  ObjSequence(folder.path(), test::sample_bodies()).write(test::sample_frame(0));
+  ObjSequence(folder.path(), test::sample_contents()).write(test::sample_frame(0));
   const std::string before = test::read_file(folder / "obj/small_000000.obj");
   Frame other = test::sample_frame(0);
   other.bodies[0].positions[0] = Vec3(7, 8, 9);
-  ObjSequence(folder.path(), test::sample_bodies()).write(other);
+  ObjSequence(folder.path(), test::sample_contents()).write(other);
   const std::string after = test::read_file(folder / "obj/small_000000.obj");
   CHECK_THAT(after, StartsWith("v 7 8 9\n"));
   CHECK(after != before);
@@ -44,7 +44,7 @@ TEST_CASE("OBJ frames that cannot be written are a resource error") {
   const std::string missing = folder / "missing";
   CHECK_THAT(error_message(ErrorCode::resources, [&] { ObjSequence(missing, {}); }),
              StartsWith(missing + "/obj: "));
-  ObjSequence writer(folder.path(), test::sample_bodies());
+  ObjSequence writer(folder.path(), test::sample_contents());
   std::filesystem::create_directories(folder / "obj/small_000000.obj/in_the_way");
   CHECK_THAT(error_message(ErrorCode::resources, [&] { writer.write(test::sample_frame(0)); }),
              StartsWith(folder / "obj/small_000000.obj: "));

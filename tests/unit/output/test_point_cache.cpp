@@ -9,6 +9,7 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using test::error_message;
 using test::sample_bodies;
+using test::sample_contents;
 using test::sample_frame;
 
 namespace {
@@ -45,7 +46,7 @@ void check_cache(const std::string& path, std::size_t body, std::int32_t samples
 
 TEST_CASE("a point cache is complete after every frame") {
   const test::TemporaryFolder folder("pc2");
-  PointCache writer(folder.path(), sample_bodies());
+  PointCache writer(folder.path(), sample_contents());
   for (std::int32_t f = 0;; ++f) {
     check_cache(folder / "pc2/small.pc2", 0, f);
     check_cache(folder / "pc2/large one.pc2", 1, f);
@@ -60,13 +61,14 @@ TEST_CASE("a point cache is complete after every frame") {
 
 TEST_CASE("the mesh of a point cache is the rest shape as it is placed at the start") {
   const test::TemporaryFolder folder("pc2_mesh");
-  PointCache writer(folder.path(), sample_bodies());
+  PointCache writer(folder.path(), sample_contents());
   for (std::size_t f = 0; f < 2; ++f) writer.write(sample_frame(f));
   const auto bodies = sample_bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const BodyFrame start = sample_frame(0).bodies[b];
     std::vector<Vec3> placed;
-    for (const Vec3& x : bodies[b].rest) placed.push_back(start.translation + start.rotation * x);
+    for (const Vec3& x : bodies[b].rest)
+      placed.push_back(start.frame.translation + start.frame.rotation * x);
     const TriangleMesh mesh = read_mesh(folder / "pc2/" + bodies[b].name + ".obj");
     CHECK(mesh.vertices == placed);
     CHECK(mesh.triangles == bodies[b].triangles);
@@ -75,7 +77,7 @@ TEST_CASE("the mesh of a point cache is the rest shape as it is placed at the st
 
 TEST_CASE("frames of a point cache come in their order, and bodies with their rest shapes") {
   const test::TemporaryFolder folder("pc2_order");
-  PointCache writer(folder.path(), sample_bodies());
+  PointCache writer(folder.path(), sample_contents());
   CHECK_THROWS_AS(writer.write(sample_frame(1)), Error);
   writer.write(sample_frame(0));
   CHECK_THROWS_AS(writer.write(sample_frame(0)), Error);
@@ -92,7 +94,7 @@ TEST_CASE("a point cache that cannot be written is a resource error") {
              StartsWith(missing + "/pc2: "));
   std::filesystem::create_directories(folder / "pc2/small.pc2/in_the_way");
   CHECK_THAT(
-      error_message(ErrorCode::resources, [&] { PointCache(folder.path(), sample_bodies()); }),
+      error_message(ErrorCode::resources, [&] { PointCache(folder.path(), sample_contents()); }),
       StartsWith(folder / "pc2/small.pc2: "));
 }
 

@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 struct SceneContents {
-  std::vector<double> ends{0, 2, 3};
+  std::vector<std::int32_t> counts{0, 2, 1};
   std::vector<double> normal{0, 2, 0};
   std::vector<std::int32_t> faces{0, 1, 2};
   std::size_t rows = 3;
@@ -35,7 +35,7 @@ auto read_after(const std::function<void(SceneContents&)>& change, const Read& r
   out.write("/obstacles/z/normal", c.normal, {3});
   out.set_attribute("/obstacles/a", "index", 2);
   out.set_attribute("/obstacles/z", "index", 1);
-  out.write("/contacts/ends", c.ends, {3});
+  out.write("/contacts/counts", c.counts, {3});
   out.write("/contacts/points", std::vector<double>(3 * c.rows, 0.5), {c.rows, 3});
   out.write("/contacts/forces", std::vector<double>(3 * c.rows, 7), {c.rows, 3});
   out.close();
@@ -70,8 +70,8 @@ TEST_CASE("obstacles and contacts that cannot be are refused") {
   const auto obstacles = [](const auto& change) { read_after(change, read_obstacles); };
   const auto contacts = [](const auto& change) { read_after(change, read_contacts); };
   CHECK_THROWS_WITH(obstacles([](SceneContents& c) { c.faces[1] = 3; }), Contains("out of range"));
-  CHECK_THROWS_WITH(contacts([](SceneContents& c) { c.ends[1] = 4; }), Contains("/contacts/ends"));
-  CHECK_THROWS_WITH(contacts([](SceneContents& c) { c.ends[0] = -1; }), Contains("/contacts/ends"));
-  CHECK_THROWS_WITH(contacts([](SceneContents& c) { c.ends[2] = 1; }), Contains("/contacts/ends"));
-  CHECK_THROWS_WITH(contacts([](SceneContents& c) { c.rows = 2; }), Contains("/contacts/ends"));
+  CHECK_THROWS_WITH(contacts([](SceneContents& c) { c.counts[1] = 3; }),
+                    Contains("/contacts/points"));
+  CHECK_THROWS_WITH(contacts([](SceneContents& c) { c.counts[0] = -1; }), Contains("negative"));
+  CHECK_THROWS_WITH(contacts([](SceneContents& c) { c.rows = 2; }), Contains("fewer"));
 }

@@ -9,6 +9,7 @@ using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
 using test::error_message;
 using test::sample_bodies;
+using test::sample_contents;
 using test::sample_frame;
 
 namespace {
@@ -33,7 +34,8 @@ std::vector<T> appended(const std::string& file, const std::string& name) {
 std::vector<Vec3> deformation(const TrajectoryBody& body, const BodyFrame& state) {
   std::vector<Vec3> out;
   for (std::size_t v = 0; v < body.vertices; ++v)
-    out.push_back(state.positions[v] - (state.translation + state.rotation * body.rest[v]));
+    out.push_back(state.positions[v] -
+                  (state.frame.translation + state.frame.rotation * body.rest[v]));
   return out;
 }
 
@@ -41,7 +43,7 @@ std::vector<Vec3> deformation(const TrajectoryBody& body, const BodyFrame& state
 
 TEST_CASE("VTP frames hold the vertices and faces of the mesh, bit by bit") {
   const test::TemporaryFolder folder("vtp");
-  VtpSequence writer(folder.path(), sample_bodies());
+  VtpSequence writer(folder.path(), sample_contents());
   for (std::size_t f = 0; f < 2; ++f) writer.write(sample_frame(f));
   writer.close();
   CHECK(test::names_in(folder / "vtp") ==
@@ -60,8 +62,8 @@ TEST_CASE("VTP frames hold the vertices and faces of the mesh, bit by bit") {
       CHECK(ends.back() == 3 * std::int32_t(ends.size()));
       CHECK(appended<Vec3>(file, "deformation") == deformation(bodies[b], state));
       CHECK_THAT(file, Contains(f == 0 ? ">0</DataArray>" : ">0.5</DataArray>"));
-      if (bodies[b].tractions)
-        CHECK(appended<Vec3>(file, "tractions") == state.tractions);
+      if (!bodies[b].fields.empty())
+        CHECK(appended<double>(file, "tractions") == state.fields[0]);
       else
         CHECK_THAT(file, !Contains("tractions"));
     }
@@ -69,7 +71,7 @@ TEST_CASE("VTP frames hold the vertices and faces of the mesh, bit by bit") {
 
 TEST_CASE("the list of VTP frames is complete after every frame") {
   const test::TemporaryFolder folder("pvd");
-  VtpSequence writer(folder.path(), sample_bodies());
+  VtpSequence writer(folder.path(), sample_contents());
   std::string entries;
   for (std::size_t f = 0;; ++f) {
     const std::string list = test::read_file(folder / "vtp/trajectory.pvd");
@@ -89,7 +91,7 @@ TEST_CASE("the list of VTP frames is complete after every frame") {
 
 TEST_CASE("names of bodies are escaped in the list of VTP frames") {
   const test::TemporaryFolder folder("pvd_names");
-  VtpSequence writer(folder.path(), {{"a<&\">", 0, {}}});
+  VtpSequence writer(folder.path(), std::vector<TrajectoryBody>{{"a<&\">", 0, {}, {}}});
   writer.write({0, 0, 0, {BodyFrame()}});
   CHECK(std::filesystem::exists(folder / "vtp/a<&\">_000000.vtp"));
   CHECK_THAT(test::read_file(folder / "vtp/trajectory.pvd"),
@@ -98,7 +100,7 @@ TEST_CASE("names of bodies are escaped in the list of VTP frames") {
 
 TEST_CASE("VTP frames come in their order, and bodies with their rest shapes") {
   const test::TemporaryFolder folder("vtp_order");
-  VtpSequence writer(folder.path(), sample_bodies());
+  VtpSequence writer(folder.path(), sample_contents());
   CHECK_THROWS_AS(writer.write(sample_frame(1)), Error);
   writer.write(sample_frame(0));
   CHECK_THROWS_AS(writer.write(sample_frame(0)), Error);
@@ -113,7 +115,7 @@ TEST_CASE("VTP frames that cannot be written are a resource error and not in the
   const std::string missing = folder / "missing";
   CHECK_THAT(error_message(ErrorCode::resources, [&] { VtpSequence(missing, {}); }),
              StartsWith(missing + "/vtp: "));
-  VtpSequence writer(folder.path(), sample_bodies());
+  VtpSequence writer(folder.path(), sample_contents());
   std::filesystem::create_directories(folder / "vtp/large one_000000.vtp/in_the_way");
   CHECK_THAT(error_message(ErrorCode::resources, [&] { writer.write(sample_frame(0)); }),
              StartsWith(folder / "vtp/large one_000000.vtp: "));
@@ -129,10 +131,10 @@ TEST_CASE("a sequence of VTP frames that goes on ends in the same bytes") {
 
 TEST_CASE("VTP frames without their list cannot go on") {
   const test::TemporaryFolder folder("vtp_unlisted");
-  VtpSequence(folder.path(), sample_bodies()).write(sample_frame(0));
+  VtpSequence(folder.path(), sample_contents()).write(sample_frame(0));
   std::filesystem::remove(folder / "vtp/trajectory.pvd");
   CHECK_THAT(error_message(ErrorCode::invalid_input,
-                           [&] { VtpSequence(folder.path(), sample_bodies(), 1); }),
+                           [&] { VtpSequence(folder.path(), sample_contents(), 1); }),
              Contains("trajectory.pvd: is missing"));
 }
 

@@ -130,3 +130,13 @@ TEST_CASE("Cleaning removes what killed processes have left", "[cache]") {
   cache.remove_beyond(1e9);
   CHECK(!fs::exists(left));
 }
+
+TEST_CASE("A folder in place of an archive is refused before anything is computed", "[cache]") {
+  const test::TemporaryFolder folder("cache_folder");
+  const ArchiveCache cache(folder / "cache");
+  const std::string path = cache.path_of("a.obj", "inputs");
+  fs::create_directory(path);
+  CHECK_THROWS_WITH(cache.has(path), Catch::Contains("a folder in place of an archive"));
+  CHECK_THROWS(cache.provide(
+      path, [] { FAIL("it was computed"); }, [] {}));
+}

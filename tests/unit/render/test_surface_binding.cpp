@@ -92,9 +92,11 @@ TEST_CASE("points of a thin wall stay on their side of it") {
   }
   for (const TriangleMesh& bound : {wall, inside_out, seams}) {
     const SurfaceBinding binding(surface, bound);
-    const std::vector<Vec3> places = binding.interpolate(surface.vertices);
-    for (std::size_t v = 0; v < places.size(); ++v)
-      if (places[v].head<2>().cwiseAbs().maxCoeff() < 0.4)
-        CHECK((places[v][2] > 0.013) == (bound.vertices[v][2] > 0));
+    Eigen::MatrixXd values(3, surface.vertices.size());
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v) values.col(v) = surface.vertices[v];
+    const Eigen::MatrixXd places = binding.interpolate(values);
+    for (Eigen::Index v = 0; v < places.cols(); ++v)
+      if (places.col(v).head<2>().cwiseAbs().maxCoeff() < 0.4)
+        CHECK((places(2, v) > 0.013) == (bound.vertices[v][2] > 0));
   }
 }

@@ -37,7 +37,7 @@ inline const std::string& full_scene() {
     { "name": "brick", "archive": "brick.bem",
       "repeat": {"count": [2,1,2], "spacing": [1,2,3], "jitter": {"position": 0.01, "rotation_deg": 5, "seed": 3}} },
     { "name": "soft", "mesh": "toy.obj", "mesh_scale": 0.001, "precompute": {"scheme": "radau3", "codec_tol": 1e-3, "measure_growth": true},
-      "material": {"name": "jelly", "density": 1000, "youngs_modulus": 3e4, "poisson_ratio": 0.5, "time_step": 0.01} },
+      "material": {"name": "jelly", "density": 1000, "youngs_modulus": 3e4, "poisson_ratio": 0.5} },
     { "name": "firm", "mesh": "toy.obj", "material": {"name": "rubber", "density": 1100, "shear_modulus": 1e6, "poisson_ratio": 0.49} } ],
   "obstacles": [ {"name": "floor", "plane": {"point": [0,1,0], "normal": [0,3,0]}, "friction": 0.4},
                  {"name": "bowl", "mesh": "bowl.obj", "scale": [1,2,3], "position": [0,0,9], "rotation": {"axis": [0,0,1], "angle_deg": 90}, "friction": 0.3, "motion": []},

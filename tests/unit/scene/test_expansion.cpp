@@ -188,3 +188,16 @@ TEST_CASE("files that include each other many times do not grow without bound") 
   files["scene.json"] = files["0"];
   CHECK(Folder(files).error().find("the scene becomes too large") != std::string::npos);
 }
+
+TEST_CASE("a path with backslashes is answered with the file that slashes lead to") {
+  const auto scene = [](const std::string& path) {
+    return "{" + kTiming + ", \"bodies\": [{\"name\": \"a\", \"archive\": \"" + path + "\"}]}";
+  };
+  const auto error = [&](const std::string& path) {
+    return Folder({{"scene.json", scene(path)}, {"sub/a.bem", ""}, {"b\\c.bem", ""}}).error();
+  };
+  CHECK_THAT(error("sub\\\\a.bem"),
+             Catch::Contains("there is no file \"sub\\a.bem\"; write \"sub/a.bem\""));
+  CHECK(error("sub\\\\b.bem") == "");  // whatever reads it says that it is not there
+  CHECK(error("b\\\\c.bem") == "");
+}

@@ -333,3 +333,41 @@ TEST_CASE("contact and output settings are checked") {
           "/output/fields/0: expected one of the strings positions, tractions, found "
           "\"traction\"; did you mean \"tractions\"?");
 }
+
+TEST_CASE("a body without loads is one on which nothing of the scene acts") {
+  const auto error = [](const std::string& loads, const std::string& members,
+                        const std::string& world) {
+    return error_at_mark(
+        "{\"version\": 1, \"time_step\": 0.01, \"duration\": 1,\n\"bodies\": [\n{\"name\": \"a\", "
+        "\"mesh\": \"a.obj\", \"material\": \"rubber\",\n\"precompute\": {" +
+        loads + "}" + members + "}]" + world + "}");
+  };
+  const auto refused = [](const std::string& acting) {
+    return "/bodies/0/precompute/loads: a body without loads cannot be held or touched, but \"" +
+           acting + "\" of the scene may act on it; leave \"loads\" away";
+  };
+  const std::string none = "\"loads\": @\"none\"", pull = ", \"tractions\": []";
+  const std::string joint =
+      ", \"joints\": [{\"type\": \"point\", \"a\": {\"body\": \"a\", \"point\": [0, 0, 0]}}]";
+  CHECK(error(none, ", \"fixed\": [\"all\"]", "") == refused("fixed"));
+  CHECK(error(none, ", \"handles\": [{\"select\": \"all\"}]", "") == refused("handles"));
+  CHECK(error(none, pull, joint) == refused("joints"));
+  CHECK(error(none, pull, ", \"contact\": {}") == refused("contact"));
+  CHECK(error("\"loads\": \"none\"", pull, "") == "");
+  CHECK(error("\"loads\": \"all\"", "", ", \"contact\": {}") == "");
+  CHECK(error("\"loads\": \"none\", \"model\": \"rigid\"", "", ", \"contact\": {}") == "");
+}
+
+TEST_CASE("a material in a scene has no time step") {
+  const std::string text = scene_with_body(
+      ", \"material\": {\"name\": \"m\", @\"time_step\": 1, \"density\": 1000, \"shear_modulus\": "
+      "1e5, \"poisson_ratio\": 0.3}, \"mesh\": \"a.obj\"");
+  CHECK(error_at_mark(text) ==
+        "/bodies/0/material/time_step: \"time_step\" is no key of a material in a scene, which has "
+        "a \"time_step\" itself");
+}
+
+TEST_CASE("a misspelt key of a place is answered with the valid one") {
+  CHECK(body_error("\"place\": {@\"centre\": [0, 0, 0]}") ==
+        "/bodies/0/place/centre: unknown key; did you mean \"center\"?");
+}

@@ -10,18 +10,18 @@ using namespace bem;
 
 namespace {
 
-using Frame = std::vector<std::uint16_t>;
+using Levels = std::vector<std::uint16_t>;
 
 /// Writes frames and reads them back; returns the bytes of base 64.
-std::size_t round_trip(const std::vector<Frame>& frames, std::size_t components) {
+std::size_t round_trip(const std::vector<Levels>& frames, std::size_t components) {
   PredictedFrames predicted(components);
-  for (const Frame& frame : frames) predicted.add(frame);
+  for (const Levels& frame : frames) predicted.add(frame);
   PackedSection section;
   predicted.flush(section);
   const std::string text = section.text();
   test::Unpacked read(text, section.size());
-  Frame all;
-  for (const Frame& frame : frames) all.insert(all.end(), frame.begin(), frame.end());
+  Levels all;
+  for (const Levels& frame : frames) all.insert(all.end(), frame.begin(), frame.end());
   CHECK(read.frames(frames.size(), frames[0].size(), components) == all);
   CHECK(read.at_end());
   return text.size();
@@ -40,8 +40,8 @@ TEST_CASE("differences are folded so that small ones are small", "[prediction]")
 
 TEST_CASE("predicted frames are exact whatever they hold", "[prediction]") {
   std::mt19937 random(1);
-  std::vector<Frame> frames(5, Frame(30));
-  for (Frame& frame : frames)
+  std::vector<Levels> frames(5, Levels(30));
+  for (Levels& frame : frames)
     for (auto& number : frame) number = static_cast<std::uint16_t>(random());
   round_trip(frames, 3);
   round_trip(frames, 1);
@@ -49,9 +49,9 @@ TEST_CASE("predicted frames are exact whatever they hold", "[prediction]") {
 }
 
 TEST_CASE("smooth motion takes a fraction of its bytes", "[prediction]") {
-  std::vector<Frame> frames;
+  std::vector<Levels> frames;
   for (int k = 0; k < 50; ++k) {
-    Frame frame(3000);
+    Levels frame(3000);
     for (std::size_t i = 0; i < frame.size(); ++i)
       frame[i] = static_cast<std::uint16_t>(30000 + 20000 * std::sin(0.02 * k + 0.1 * double(i)));
     frames.push_back(frame);
@@ -67,5 +67,5 @@ TEST_CASE("a segment does not need the one before", "[prediction]") {
   predicted.add({1, 2, 3, 4, 5, 6});
   predicted.flush(second);
   test::Unpacked read(second.text(), second.size());
-  CHECK(read.frames(1, 6, 3) == Frame{1, 2, 3, 4, 5, 6});
+  CHECK(read.frames(1, 6, 3) == Levels{1, 2, 3, 4, 5, 6});
 }
