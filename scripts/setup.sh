@@ -5,10 +5,10 @@
 set -euo pipefail
 
 usage="usage: scripts/setup.sh [--test] [--bench] [--lint] [--npm] [--calculix] [--fuzz]
-  --test   also what the tests need to read output as other programs do
+  --test   also what the tests need: programs that read output, npm for bemview, Chromium for its page
   --bench  also what the benchmarks need, and Siconos to compare with
   --lint   also clang-format and clang-tidy
-  --npm    also npm, which fetches example meshes
+  --npm    also npm, which fetches example meshes and bundles the page of bemview
   --calculix  also CalculiX, which the study compares with
   --fuzz   also clang with its sanitizers, for the fuzzers"
 
@@ -20,16 +20,17 @@ fail() {
 packages=(
   build-essential cmake ninja-build pkg-config
   libeigen3-dev libhdf5-dev libassimp-dev libcli11-dev nlohmann-json3-dev libfftw3-dev catch2
-  libcgal-dev libblis-serial-dev libhwy-dev libtbb-dev libxxhash-dev
+  libcgal-dev libblis-serial-dev libhwy-dev libtbb-dev libxxhash-dev zlib1g-dev
   python3 python3-h5py python3-numpy python3-matplotlib
 )
 optional=(ffmpeg)
+add_npm() { command -v npm >/dev/null || packages+=(nodejs npm); }
 for argument in "$@"; do
   case "$argument" in
-    --test) packages+=(python3-vtk9) ;;
+    --test) packages+=(python3-vtk9 python3-pil); optional+=(chromium); add_npm ;;
     --bench) packages+=(libbenchmark-dev libopenblas-dev); optional+=(libsiconos-numerics-dev) ;;
     --lint) packages+=(clang-format clang-tidy) ;;
-    --npm) command -v npm >/dev/null || packages+=(nodejs npm) ;;
+    --npm) add_npm ;;
     --calculix) packages+=(calculix-ccx) ;;
     --fuzz) packages+=(clang libclang-rt-dev) ;;
     -h | --help) echo "$usage"; exit 0 ;;
@@ -76,5 +77,5 @@ fi
 mapfile -t missing < <(missing_of "${optional[@]}")
 if [[ ${#missing[@]} -gt 0 ]]; then
   echo "Installing ${missing[*]} (optional)"
-  install "${missing[@]}" || echo "warning: not installed: ${missing[*]} (videos need ffmpeg; Siconos is for comparisons)" >&2
+  install "${missing[@]}" || echo "warning: not installed: ${missing[*]} (videos need ffmpeg, the test of bemview's page Chromium; Siconos is for comparisons)" >&2
 fi

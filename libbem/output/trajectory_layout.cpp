@@ -141,8 +141,9 @@ void write_body(Hdf5File& file, const TrajectoryBody& body) {
   const std::string group = group_of(body);
   write_faces(file, group, body.triangles);
   if (body.surface != TrajectorySurface::only)
-    file.set_attribute(group, kSurfaceAttribute,
-                       body.surface == TrajectorySurface::render ? kRenderSurface : "simulation");
+    file.set_attribute(
+        group, kSurfaceAttribute,
+        body.surface == TrajectorySurface::render ? kRenderSurface : kSimulatedSurface);
   file.set_attribute(group, "index", body.index);
   if (body.mass > 0) file.set_attribute(group, "mass", body.mass);
   set_text(file, group, "archive_digest", body.archive_digest);

@@ -12,10 +12,11 @@ namespace bem {
 /// Version of the layout of trajectories (docs/trajectory-format.md), an attribute of the file.
 inline constexpr int kTrajectoryVersion = 2;
 
-/// Attribute of a body's group in trajectories with render meshes, and its value for these; that of
-/// simulated surfaces beside them is "simulation".
+/// Attribute of a body's group in trajectories with render meshes, and its values for these and for
+/// simulated surfaces beside them.
 inline constexpr const char* kSurfaceAttribute = "surface";
 inline constexpr const char* kRenderSurface = "render";
+inline constexpr const char* kSimulatedSurface = "simulation";
 
 /// A dataset of a trajectory to which every frame adds rows: one, or as many as it has contacts.
 struct TrajectoryDataset {

@@ -1,0 +1,57 @@
+#include "output/trajectory_scene.hpp"
+
+#include "base/error.hpp"
+#include "output/trajectory_layout.hpp"
+
+namespace bem {
+namespace {
+
+Vec3 vector_at(const TrajectoryFile& file, const std::string& path) {
+  const std::vector<double> v = file.rows(path, {}, 0, 3);
+  return Vec3(v[0], v[1], v[2]);
+}
+
+RecordedObstacle read_obstacle(const TrajectoryFile& file, const std::string& name) {
+  const std::string group = "/obstacles/" + name;
+  RecordedObstacle o;
+  o.name = name;
+  o.is_plane = file.has(group + "/normal");
+  if (o.is_plane) {
+    o.point = vector_at(file, group + "/point");
+    o.normal = vector_at(file, group + "/normal").normalized();
+    return o;
+  }
+  const std::size_t count = file.row_count(group + "/vertices");
+  o.vertices = file.rows(group + "/vertices", {3}, 0, count);
+  o.triangles = file.triangles(group + "/faces", count);
+  o.translations = file.all_frames(group + "/translation", {3});
+  o.rotations = file.all_frames(group + "/rotation", {3, 3});
+  return o;
+}
+
+}  // namespace
+
+std::vector<RecordedObstacle> read_obstacles(const TrajectoryFile& file) {
+  std::vector<RecordedObstacle> obstacles;
+  for (const std::string& name : file.names("/obstacles"))
+    obstacles.push_back(read_obstacle(file, name));
+  return obstacles;
+}
+
+RecordedContacts read_contacts(const TrajectoryFile& file) {
+  RecordedContacts contacts;
+  if (!file.has(kContactCountsPath)) return contacts;
+  std::size_t rows = 0;
+  const std::size_t frames = file.times().size();
+  for (double count : file.rows(kContactCountsPath, {}, 0, frames, Hdf5Type::int32)) {
+    if (count < 0)
+      throw Error(file.error(), file.path() + ": " + kContactCountsPath + " has a negative number");
+    rows += static_cast<std::size_t>(count);
+    contacts.ends.push_back(rows);
+  }
+  contacts.points = file.rows("/contacts/points", {3}, 0, rows);
+  contacts.forces = file.rows("/contacts/forces", {3}, 0, rows);
+  return contacts;
+}
+
+}  // namespace bem
