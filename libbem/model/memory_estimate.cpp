@@ -102,14 +102,14 @@ double slab_bytes(const BodyGeometry& g, const PrecomputeOptions& o,
 
 double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o, double stored) {
   constexpr double kCopies = 2;  // of the numbers of a block while its bases are found
-  constexpr double kTileNodes = 8;
+  constexpr double kTogether = 8;
   const Counts c = counts_of(o);
   const double n = 3.0 * static_cast<double>(g.nodes.vertices.size());
   const std::vector<Slab> slabs = o.codec.codec->slabs(g.nodes.vertices);
   double widest = 0;
   for (const Slab& s : slabs)
     for (const NodeBlock& b : s.blocks) widest = std::max(widest, 9.0 * b.rows() * b.columns());
-  const double rows = kTileNodes * n * 5 * 4 * (c.lags + c.parts + 4);  // of the assembler
+  const double rows = kTogether * n * 5 * 4 * (c.lags + c.parts + 4);  // of the assembler
   const double work = thread_count() * (kCopies * 4 * widest * c.lags + rows);
   const double dense = o.inverse == InverseKind::dense ? initial_bytes(g, o) : 0;
   return kProgram + stored + dense + slab_bytes(g, o, slabs) + work + row_buffer_bytes(g, o);

@@ -10,9 +10,9 @@ namespace {
 
 /// The next smaller number with one digit, or a one or two with a half or a quarter behind it.
 double round_down(double value) {
-  constexpr double kDigits[] = {8, 6, 5, 4, 3, 2.5, 2, 1.5, 1.25, 1};
+  constexpr double kRounded[] = {8, 6, 5, 4, 3, 2.5, 2, 1.5, 1.25, 1};
   const double power = std::pow(10, std::floor(std::log10(value)));
-  for (double digits : kDigits)
+  for (double digits : kRounded)
     if (digits * power <= value * (1 + 1e-12)) return digits * power;
   return power;
 }

@@ -55,6 +55,55 @@ class Measure(CliCase):
         self.assertAlmostEqual(found["worst_penetration"], 0.05, delta=0.01)
         self.assertEqual(found["penetration"]["a - itself"]["depth"], 0)
 
+    def diff(self, *options, code=0):
+        done = subprocess.run([os.environ["BEMMEASURE"], "--diff", "out/trajectory.h5", "other.h5", *options],
+                              cwd=self.folder, text=True, capture_output=True)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def change(self, change):
+        (self.folder / "other.h5").write_bytes((self.folder / "out/trajectory.h5").read_bytes())
+        with h5py.File(self.folder / "other.h5", "r+") as file:
+            change(file)
+
+    def test_differences_of_two_trajectories(self):
+        self.simulate()
+        self.change(lambda file: None)
+        self.assertIn("equal", self.diff().stdout)
+        self.diff("--fields", "positions", "series/momentum", "frame/rotation")
+
+        def move(file):
+            file["bodies/ball/positions"][7, 3, 1] += 1e-3
+
+        self.change(move)
+        self.assertIn("ball positions: 0.001 at most, allowed 0 (frame 7, vertex 3)", self.diff(code=1).stdout)
+        self.diff("--abs", "1.1e-3")
+        self.diff("--abs", "0.9e-3", code=1)
+        self.diff("--rel", "0.01")  # of 0.2 m
+        self.diff("--rel", "0.004", code=1)
+        self.diff("--fields", "series/momentum")
+
+    def test_trajectories_that_cannot_be_compared(self):
+        self.simulate()
+
+        def shorten(file):
+            file["time"].resize(5, axis=0)
+
+        def rename(file):
+            file.move("bodies/ball", "bodies/other")
+
+        def shift(file):
+            file["time"][3] += 1e-3
+
+        for change, words in ((shorten, "11 and 5 frames"), (rename, 'no body "ball"'), (shift, "frame 3 is at")):
+            self.change(change)
+            done = self.diff(code=3)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.change(lambda file: None)
+        self.assertIn('no "stress"', self.diff("--fields", "stress", code=3).stderr)
+        self.assertIn("--abs", self.diff("--abs", "-1", code=2).stderr)
+
     def test_trajectories_that_were_made_to_do_harm(self):
         """Exit code 4 and the place, whatever is wrong with them."""
         self.simulate()
