@@ -5,20 +5,13 @@
 #include "dynamics/frame_offset.hpp"
 #include "dynamics/least_squares.hpp"
 #include "dynamics/nodal_forces.hpp"
-#include "dynamics/surface_load.hpp"
+#include "dynamics/prescribed_load.hpp"
 #include "model/nodal_tractions.hpp"
 
 #include <memory>
 #include <optional>
 
 namespace bem {
-
-/// A prescribed load of a body with its past.
-struct PrescribedLoad {
-  SurfaceLoad load;
-  LagHistory history;
-  Eigen::MatrixXd stages;  ///< inputs x s of the current step
-};
 
 /// The deformation of one body: displacements in its frame, free of rigid motion but for the frame
 /// offset, under prescribed loads and forces on single nodes.

@@ -3,7 +3,8 @@
 #include "base/choices.hpp"
 #include "base/material.hpp"
 #include "base/types.hpp"
-#include "scene/location.hpp"
+#include "scene/motion_spec.hpp"
+#include "scene/selection_spec.hpp"
 #include "settings/precompute_settings.hpp"
 
 #include <optional>
@@ -21,52 +22,6 @@ struct FilePath {
   std::string resolved;
   Location location;
 };
-
-/// Rotation by `angle` [rad], of any size and sign, about the unit vector `axis`.
-struct AxisAngle {
-  Vec3 axis = Vec3::UnitX();
-  double angle = 0;
-
-  Mat3 matrix() const;
-};
-
-/// Chooses vertices or triangles of one body's mesh.
-struct Selection {
-  enum class Kind { all, vertices, triangles, box, sphere, plane, group };
-
-  Kind kind = Kind::all;
-  std::vector<int> indices;     ///< 0-based, for vertices and triangles
-  Vec3 box_min, box_max;        ///< [m], mesh coordinates, min <= max
-  Vec3 point = Vec3::Zero();    ///< [m], mesh coordinates: centre of the sphere, or of the plane
-  double radius = 0;            ///< [m], of the sphere, > 0
-  Vec3 side = Vec3::UnitX();    ///< unit vector to the side of the plane that is chosen
-  std::string group;            ///< name; resolve_groups (scene/groups.hpp) puts its selection here
-  std::optional<Vec3> normal;   ///< unit vector, mesh coordinates; with a box, sphere or plane
-  double normal_tolerance = 0;  ///< largest angle [rad] between it and a triangle's normal
-  Location location;
-
-  Selection() : box_min(Vec3::Zero()), box_max(Vec3::Zero()) {}
-};
-
-/// One point of a factor over time.
-struct ProfilePoint {
-  double time = 0;  ///< [s]
-  double factor = 0;
-};
-
-/// Factor over time, with increasing times (profile_value evaluates it); empty is the factor 1.
-using Profile = std::vector<ProfilePoint>;
-
-/// Where a motion has brought things at one time (motion_at interpolates).
-struct Keyframe {
-  double time = 0;                ///< [s]
-  Vec3 translate = Vec3::Zero();  ///< [m]
-  AxisAngle rotate;
-  Vec3 about = Vec3::Zero();  ///< centre of the rotation [m]
-};
-
-/// Keyframes with increasing times; empty is no motion.
-using Motion = std::vector<Keyframe>;
 
 /// Vertices whose positions are prescribed.
 struct HandleSpec {
