@@ -136,12 +136,11 @@ export class Controls {
     this.updateCurves();
   }
 
-  /** What the run recorded; else the height if bodies rise or fall, or how far they are deformed. */
+  /** Contact forces if there are any; else the height if bodies rise or fall, or how far they are deformed. */
   firstQuantity() {
-    const height = this.quantities.findIndex(({ key }) => key === "height");
-    if (height > 0 || this.quantities.length < 2) return 0;
-    const rises = this.quantities[0].curves.some(({ values }) => values.some((value) => Math.abs(value - values[0]) > 0.05 * this.stage.radius));
-    return rises ? 0 : 1;
+    const changes = (name, least) => this.quantities.findIndex(({ key, curves }) => key === name && curves.some(({ values }) => values.some((value) => Math.abs(value - values[0]) > least)));
+    const found = [changes("contact force (length)", 0), changes("height", 0.05 * this.stage.radius), changes("largest displacement", 0)];
+    return found.find((index) => index >= 0) ?? 0;
   }
 
   updateCurves() {
