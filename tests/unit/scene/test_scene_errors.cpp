@@ -330,7 +330,8 @@ TEST_CASE("contact and output settings are checked") {
   REQUIRE(world_error("\"output\": {\"every\": @0}") ==
           "/output/every: expected an integer from 1 to 2147483647, found the number 0");
   REQUIRE(world_error("\"output\": {\"fields\": [@\"traction\"]}") ==
-          "/output/fields/0: expected one of the strings positions, tractions, found "
+          "/output/fields/0: expected one of the strings positions, velocities, tractions, stress, "
+          "contacts, found "
           "\"traction\"; did you mean \"tractions\"?");
 }
 
