@@ -70,10 +70,11 @@ double LowRankBuilder::choose_quantum(const Slab& slab,
   constexpr int kTrials = 3;
   constexpr double kFar = 3,
                    kTooMuch = 2;  // errors jump where blocks change their number of layers
-  constexpr std::size_t kFewBlocks = 12;
+  const std::size_t kFewBlocks = checked ? 6 : 12;
   const auto size = static_cast<double>(matrices[0].cols());
   const double entries = size * size * static_cast<double>(matrices.size());
-  const std::size_t every = std::max<std::size_t>(1, slab.blocks.size() / kFewBlocks);
+  const std::size_t more = checked ? kFewBlocks - 1 : 0;  // others stay as they have always been
+  const std::size_t every = std::max<std::size_t>(1, (slab.blocks.size() + more) / kFewBlocks);
   double tried = 0;
   for (std::size_t b = 0; b < slab.blocks.size(); b += every)
     tried += 9.0 * slab.blocks[b].rows() * slab.blocks[b].columns() *
