@@ -74,23 +74,29 @@ void read_rows(const Hdf5File& file, const TrajectoryDataset& dataset, std::size
   if (count > 0) file.read_rows(dataset.path, first, count, to.data() + begin);
 }
 
-void add_numbers(FileRecord& record, const std::vector<double>& values) {
-  record.add({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
+/// Adds the numbers of a vector from `begin` on.
+void add_numbers(FileRecord& record, const std::vector<double>& values, std::size_t begin = 0) {
+  record.add({reinterpret_cast<const char*>(values.data() + begin),
+              (values.size() - begin) * sizeof(double)});
 }
 
 }  // namespace
 
 /// Writes waiting rows up to one of them.
 void Hdf5Trajectory::Series::append(std::size_t end) {
-  const std::size_t width = layout.width();
-  dataset->append(end - stored, rows.data());
-  rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>((end - stored) * width));
+  dataset->append(end - stored, rows.data() + (stored - first) * layout.width());
   stored = end;
+}
+
+void Hdf5Trajectory::Series::forget_stored() {
+  rows.erase(rows.begin(),
+             rows.begin() + static_cast<std::ptrdiff_t>((stored - first) * layout.width()));
+  first = stored;
 }
 
 /// What has been added to the rows belongs to a frame.
 void Hdf5Trajectory::Series::end_frame() {
-  ends.push_back(stored + rows.size() / layout.width());
+  ends.push_back(first + rows.size() / layout.width());
 }
 
 Hdf5Trajectory::Hdf5Trajectory(const std::string& directory, TrajectoryContents contents,
@@ -172,10 +178,9 @@ void Hdf5Trajectory::write(const Frame& frame) {
   check_frame(contents_, frame);
   require(frame.index == frames_, "frames are written in their order");
   for (Series& s : series_) {
-    std::vector<double> rows;
-    s.layout.append(frame, rows);
-    add_numbers(records_[0], rows);
-    s.rows.insert(s.rows.end(), rows.begin(), rows.end());
+    const std::size_t begin = s.rows.size();
+    s.layout.append(frame, s.rows);
+    add_numbers(records_[0], s.rows, begin);
     s.end_frame();
   }
   ++frames_;
@@ -204,6 +209,7 @@ void Hdf5Trajectory::flush() {
     for (Series& s : series_) {
       s.rows.clear();
       s.ends.clear();
+      s.first = s.stored;
     }
     frames_ = stored_;
     throw;
@@ -226,8 +232,10 @@ void Hdf5Trajectory::store(std::size_t end) {
     return store(stored_ + 1);
   }
   store_together(end);
-  for (Series& s : series_)
+  for (Series& s : series_) {
+    s.forget_stored();
     s.ends.erase(s.ends.begin(), s.ends.begin() + static_cast<std::ptrdiff_t>(end - stored_));
+  }
   stored_ = end;
 }
 

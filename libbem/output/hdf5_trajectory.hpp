@@ -60,7 +60,8 @@ class Hdf5Trajectory : public FrameWriter {
     std::size_t chunk_rows;              ///< in a piece of the file
     std::size_t chunk_bytes;             ///< of the pieces that hold one row
     std::size_t stored = 0;              ///< rows in the file
-    std::vector<double> rows = {};       ///< that wait
+    std::vector<double> rows = {};       ///< that wait, and those stored since forget_stored()
+    std::size_t first = 0;               ///< row of the file that they begin with
     std::vector<std::size_t> ends = {};  ///< of the frames that wait: rows up to their end
     std::optional<Hdf5Rows> dataset = {};
 
@@ -68,6 +69,7 @@ class Hdf5Trajectory : public FrameWriter {
     std::size_t pieces(std::size_t end) const { return (end + chunk_rows - 1) / chunk_rows; }
     void append(std::size_t end);
     void end_frame();
+    void forget_stored();
   };
 
   void create_datasets();

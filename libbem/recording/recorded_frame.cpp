@@ -107,11 +107,10 @@ void check_finite(const std::string& name, const BodyFrame& frame, double time) 
 
 }  // namespace
 
-/// By field of the trajectory: a column for each node.
+/// By field of the trajectory but velocities, which come first: a column for each node.
 std::vector<Eigen::MatrixXd> Recorder::node_fields(std::size_t index, const Body& body) const {
   const BodyOutput output(body);
   std::vector<Eigen::MatrixXd> out;
-  if (writes(OutputField::velocities)) out.push_back(columns(output.node_velocities()));
   if (writes(OutputField::tractions)) out.push_back(columns(output.node_tractions()));
   if (stress_[index]) {
     const StressField stress = output.node_stress(*stress_[index]);
@@ -128,6 +127,8 @@ BodyFrame Recorder::surface_frame(const Body& body,
                                   const std::vector<Eigen::MatrixXd>& fields) const {
   BodyFrame out;
   out.positions = BodyOutput(body).positions();
+  if (writes(OutputField::velocities))
+    out.fields.push_back(numbers(columns(BodyOutput(body).velocities())));
   const std::vector<int>& nodes = body.model().geometry.node_of_vertex;
   for (const Eigen::MatrixXd& field : fields) {
     Eigen::MatrixXd values =
@@ -136,8 +137,6 @@ BodyFrame Recorder::surface_frame(const Body& body,
       if (nodes[v] >= 0) values.col(static_cast<Eigen::Index>(v)) = field.col(nodes[v]);
     out.fields.push_back(numbers(values));
   }
-  if (writes(OutputField::velocities))
-    out.fields[0] = numbers(columns(BodyOutput(body).velocities()));
   return out;
 }
 
@@ -145,15 +144,15 @@ BodyFrame Recorder::surface_frame(const Body& body,
 BodyFrame Recorder::render_frame(const BoundMesh& mesh, const Body& body,
                                  const std::vector<Eigen::MatrixXd>& fields) const {
   const BodyOutput output(body);
+  const std::vector<Vec3> nodes = output.node_positions();
   BodyFrame out;
-  BoundMesh::Shape shape = mesh.shape(output.node_positions());
+  BoundMesh::Shape shape = mesh.shape(nodes);
   out.positions = std::move(shape.positions);
   out.normals = std::move(shape.normals);
+  if (writes(OutputField::velocities))
+    out.fields.push_back(numbers(columns(bound_velocities(mesh, nodes, output.node_velocities()))));
   for (const Eigen::MatrixXd& field : fields)
     out.fields.push_back(numbers(mesh.binding().interpolate(field)));
-  if (writes(OutputField::velocities))
-    out.fields[0] =
-        numbers(columns(bound_velocities(mesh, output.node_positions(), output.node_velocities())));
   return out;
 }
 
@@ -164,7 +163,7 @@ Frame Recorder::frame(const Simulation& simulation, std::size_t index) const {
   frame.time = simulation.time();
   const std::vector<ContactFrame> contacts = contact_frames(simulation);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const RecordedBody& shown = bodies_[i];
+    const ShownBody& shown = bodies_[i];
     const Body& body = simulation.bodies()[i];
     const std::vector<Eigen::MatrixXd> fields = node_fields(i, body);
     const std::vector<double> series = body_series_of(body, static_cast<int>(i), contacts);

@@ -22,7 +22,7 @@ std::string digest_of_mesh(const std::vector<Vec3>& vertices,
   return digest_of(bytes);
 }
 
-TrajectoryBody shown_surface(const RecordedBody& body) {
+TrajectoryBody shown_surface(const ShownBody& body) {
   const TriangleMesh& mesh = body.geometry->input;
   TrajectoryBody out{body.spec->name, mesh.vertices.size(), mesh.triangles, {}, mesh.vertices};
   if (!body.render) return out;
@@ -31,7 +31,7 @@ TrajectoryBody shown_surface(const RecordedBody& body) {
   return out;
 }
 
-TrajectoryBody shown_mesh(const RecordedBody& body) {
+TrajectoryBody shown_mesh(const ShownBody& body) {
   const TriangleMesh& mesh = body.render->mesh()->triangles;
   const TrajectorySurface surface =
       body.shows_surface ? TrajectorySurface::only : TrajectorySurface::render;
@@ -39,7 +39,7 @@ TrajectoryBody shown_mesh(const RecordedBody& body) {
           surface,         body.render->mesh()};
 }
 
-TrajectoryObstacle shown_obstacle(const RecordedObstacle& obstacle) {
+TrajectoryObstacle shown_obstacle(const ShownObstacle& obstacle) {
   TrajectoryObstacle out{obstacle.spec->name, {}};
   if (const auto* plane = std::get_if<PlaneObstacle>(&obstacle.spec->shape)) {
     out.plane = ObstaclePlane{plane->point, plane->normal};
@@ -61,8 +61,8 @@ TrajectoryObstacle shown_obstacle(const RecordedObstacle& obstacle) {
 
 }  // namespace
 
-Recorder::Recorder(const Scene& scene, std::vector<RecordedBody> bodies,
-                   const std::vector<RecordedObstacle>& obstacles, std::string program)
+Recorder::Recorder(const Scene& scene, std::vector<ShownBody> bodies,
+                   const std::vector<ShownObstacle>& obstacles, std::string program)
     : scene_(scene), bodies_(std::move(bodies)) {
   contents_.program = std::move(program);
   contents_.scene = scene.text;
@@ -75,7 +75,7 @@ Recorder::Recorder(const Scene& scene, std::vector<RecordedBody> bodies,
       stress_[i] =
           std::make_unique<SurfaceStress>(bodies_[i].geometry->nodes, *bodies_[i].material);
   }
-  for (const RecordedObstacle& o : obstacles) {
+  for (const ShownObstacle& o : obstacles) {
     contents_.obstacles.push_back(shown_obstacle(o));
     contents_.obstacles.back().index = bodies_.size() + (contents_.obstacles.size() - 1);
     const auto* mesh = std::get_if<MeshObstacle>(&o.spec->shape);
@@ -88,12 +88,12 @@ bool Recorder::writes(OutputField field) const {
   return std::find(fields.begin(), fields.end(), field) != fields.end();
 }
 
-bool Recorder::writes_simulated_surface(const RecordedBody& body) const {
+bool Recorder::writes_simulated_surface(const ShownBody& body) const {
   if (body.shows_surface) return false;
   return !body.render || scene_.output.surface == OutputSurface::both;
 }
 
-void Recorder::add_body(const RecordedBody& body, std::size_t index) {
+void Recorder::add_body(const ShownBody& body, std::size_t index) {
   const auto add = [&](TrajectoryBody shown) {
     if (writes(OutputField::velocities)) shown.fields.push_back(kVelocities);
     if (writes(OutputField::tractions)) shown.fields.push_back(kTractions);

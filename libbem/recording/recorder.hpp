@@ -14,7 +14,7 @@
 namespace bem {
 
 /// A body of a scene and what is shown of it.
-struct RecordedBody {
+struct ShownBody {
   const BodySpec* spec;
   const BodyGeometry* geometry;
   const Material* material;
@@ -25,7 +25,7 @@ struct RecordedBody {
 };
 
 /// An obstacle; a plane has no surface.
-struct RecordedObstacle {
+struct ShownObstacle {
   const ObstacleSpec* spec;
   const ObstacleSurface* surface;
 };
@@ -34,8 +34,8 @@ struct RecordedObstacle {
 class Recorder {
  public:
   /// All that is pointed to must outlive this. `program`: name and version for the file.
-  Recorder(const Scene& scene, std::vector<RecordedBody> bodies,
-           const std::vector<RecordedObstacle>& obstacles, std::string program);
+  Recorder(const Scene& scene, std::vector<ShownBody> bodies,
+           const std::vector<ShownObstacle>& obstacles, std::string program);
 
   /// For each body the simulated surface, its render mesh, or first this and then that; then the
   /// obstacles.
@@ -46,15 +46,15 @@ class Recorder {
 
  private:
   bool writes(OutputField field) const;
-  bool writes_simulated_surface(const RecordedBody& body) const;
-  void add_body(const RecordedBody& body, std::size_t index);
+  bool writes_simulated_surface(const ShownBody& body) const;
+  void add_body(const ShownBody& body, std::size_t index);
   std::vector<Eigen::MatrixXd> node_fields(std::size_t index, const Body& body) const;
   BodyFrame surface_frame(const Body& body, const std::vector<Eigen::MatrixXd>& fields) const;
   BodyFrame render_frame(const BoundMesh& mesh, const Body& body,
                          const std::vector<Eigen::MatrixXd>& fields) const;
 
   const Scene& scene_;
-  std::vector<RecordedBody> bodies_;
+  std::vector<ShownBody> bodies_;
   std::vector<std::optional<MeshObstacle>> obstacles_;  ///< those that are meshes
   std::vector<std::unique_ptr<SurfaceStress>> stress_;  ///< by body, if it is written
   TrajectoryContents contents_;

@@ -5,12 +5,12 @@
 namespace bem {
 
 std::unique_ptr<Recorder> make_recorder(const Plan& plan) {
-  std::vector<RecordedBody> bodies;
+  std::vector<ShownBody> bodies;
   for (const PlannedBody& body : plan.bodies)
     bodies.push_back({body.spec, &body.archive->geometry(),
                       &body.archive->discretisation().material, body.archive->user_block().digest,
                       body.render, body.shows_surface});
-  std::vector<RecordedObstacle> obstacles;
+  std::vector<ShownObstacle> obstacles;
   for (const PlannedObstacle& obstacle : plan.obstacles)
     obstacles.push_back({obstacle.spec, obstacle.surface});
   return std::make_unique<Recorder>(plan.scene, std::move(bodies), obstacles, version_text());
