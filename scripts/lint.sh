@@ -120,6 +120,7 @@ mapfile -t shell < <(files '*.sh')
 
 check "formatting of ${#cpp[@]} C++ files" clang-format --dry-run -Werror "${cpp[@]}"
 check "order of the folders" python3 scripts/check_layers.py
+check "names of types" python3 scripts/check_type_names.py
 check "what documents and comments refer to" python3 scripts/check_docs.py
 check "syntax of ${#python[@]} Python files" check_python "${python[@]}"
 check "syntax of ${#shell[@]} shell scripts" check_shell "${shell[@]}"

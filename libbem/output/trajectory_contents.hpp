@@ -30,11 +30,11 @@ struct FrameQuantity {
 };
 
 struct TrajectoryBody {
-  std::string name;                   ///< unique; fit to be part of a file name and of an HDF5 path
-  std::size_t vertices = 0;           ///< of the input mesh, or of the render mesh
-  std::vector<Triangle> triangles;    ///< of this mesh, as it lists them
-  std::vector<FrameQuantity> fields;  ///< at its vertices, beside positions; world axes
-  std::vector<Vec3> rest = {};        ///< vertices of this mesh [m]; some formats need them
+  std::string name;                 ///< unique; fit to be part of a file name and of an HDF5 path
+  std::size_t vertices = 0;         ///< of the input mesh, or of the render mesh
+  std::vector<Triangle> triangles;  ///< of this mesh, as it lists them
+  std::vector<FrameQuantity> fields = {};  ///< at its vertices, beside positions; world axes
+  std::vector<Vec3> rest = {};             ///< vertices of this mesh [m]; some formats need them
   TrajectorySurface surface = TrajectorySurface::only;
   std::shared_ptr<const RenderMesh> render = nullptr;  ///< for TrajectorySurface::render
   std::vector<FrameQuantity> series = {};              ///< of all of the body

@@ -1,13 +1,13 @@
 #include "repair/connected_parts.hpp"
 
 #include "mesh/weld.hpp"
-#include "repair/groups.hpp"
+#include "repair/disjoint_sets.hpp"
 
 namespace bem {
 
 std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
   const TriangleMesh nodes = weld(mesh).mesh;
-  Groups groups(nodes.vertices.size());
+  DisjointSets groups(nodes.vertices.size());
   for (const auto& [a, b, c] : nodes.triangles) {
     groups.unite(a, b);
     groups.unite(b, c);

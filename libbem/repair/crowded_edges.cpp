@@ -2,14 +2,14 @@
 
 #include "mesh/adjacency.hpp"
 #include "mesh/two_sided.hpp"
-#include "repair/groups.hpp"
+#include "repair/disjoint_sets.hpp"
 
 namespace bem {
 
 TriangleMesh outer_side(const TriangleMesh& mesh) {
   TriangleMesh layers = make_two_sided(mesh).layers;
   const std::size_t n = layers.triangles.size();
-  Groups parts(n);
+  DisjointSets parts(n);
   for_each_edge(sorted_half_edges(layers.triangles),
                 [&](const HalfEdge* first, const HalfEdge* last) {
                   for (const HalfEdge* h = first + 1; h != last; ++h)

@@ -2,7 +2,7 @@
 
 #include "base/interruption.hpp"
 #include "repair/cgal_mesh.hpp"
-#include "repair/groups.hpp"
+#include "repair/disjoint_sets.hpp"
 
 #include <iterator>
 
@@ -102,7 +102,7 @@ class HoleFiller {
 
   CgalMesh& mesh_;
   double part_;
-  Groups groups_;              ///< faces of the mesh as it came, by connected part
+  DisjointSets groups_;        ///< faces of the mesh as it came, by connected part
   std::vector<double> areas_;  ///< of the groups
   FilledHoles out_;
 };

@@ -8,7 +8,7 @@
 #include "repair/crossings.hpp"
 #include "repair/crowded_edges.hpp"
 #include "repair/deviation.hpp"
-#include "repair/groups.hpp"
+#include "repair/disjoint_sets.hpp"
 #include "repair/holes.hpp"
 #include "repair/orient_patches.hpp"
 #include "repair/repeated_triangles.hpp"
@@ -153,7 +153,7 @@ class Mender {
 
   static bool all_parts_open(const TriangleMesh& mesh) {
     const std::vector<HalfEdge> edges = sorted_half_edges(mesh.triangles);
-    Groups parts(mesh.triangles.size());
+    DisjointSets parts(mesh.triangles.size());
     for_each_edge(edges, [&](const HalfEdge* first, const HalfEdge* last) {
       for (const HalfEdge* h = first + 1; h != last; ++h)
         parts.unite(first->index / 3, h->index / 3);

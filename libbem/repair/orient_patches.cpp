@@ -2,7 +2,7 @@
 
 #include "mesh/adjacency.hpp"
 #include "mesh/weld.hpp"
-#include "repair/groups.hpp"
+#include "repair/disjoint_sets.hpp"
 
 #include <utility>
 
@@ -70,7 +70,7 @@ class Patches {
 
   /// Corners that links of one orientation connect become one vertex.
   std::size_t number_fans() {
-    Groups corners(3 * mesh_.triangles.size());
+    DisjointSets corners(3 * mesh_.triangles.size());
     for (std::size_t t = 0; t < links_.size(); ++t)
       for (const Link& link : links_[t])
         if (link.same == (turned_[t] == turned_[link.triangle]))

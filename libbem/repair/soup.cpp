@@ -6,7 +6,7 @@
 #include "mesh/closest_points.hpp"
 #include "mesh/validate.hpp"
 #include "mesh/weld.hpp"
-#include "repair/groups.hpp"
+#include "repair/disjoint_sets.hpp"
 
 #include <cmath>
 #include <map>
@@ -18,7 +18,7 @@ namespace {
 
 /// Joins those of the vertices `members` that are near each other.
 std::size_t join_near(TriangleMesh& mesh, const std::vector<int>& members, double distance) {
-  Groups groups(mesh.vertices.size());
+  DisjointSets groups(mesh.vertices.size());
   std::size_t joined = 0;
   std::vector<BoundingBox> boxes;
   for (int v : members)
@@ -109,8 +109,9 @@ void split_triangles(TriangleMesh& mesh, const Splits& splits) {
 }
 
 /// Patches of triangles that edges of two triangles connect.
-Groups patches_of(const std::vector<Triangle>& triangles, const std::vector<HalfEdge>& edges) {
-  Groups patches(triangles.size());
+DisjointSets patches_of(const std::vector<Triangle>& triangles,
+                        const std::vector<HalfEdge>& edges) {
+  DisjointSets patches(triangles.size());
   for_each_edge(edges, [&](const HalfEdge* first, const HalfEdge* last) {
     if (last - first == 2) patches.unite(first[0].index / 3, first[1].index / 3);
   });
@@ -120,7 +121,7 @@ Groups patches_of(const std::vector<Triangle>& triangles, const std::vector<Half
 /// Drops patches of at most `part` of the area that end somewhere, and hang on others or do not.
 std::size_t drop_open_patches(TriangleMesh& mesh, double part, bool hanging) {
   const std::vector<HalfEdge> edges = sorted_half_edges(mesh.triangles);
-  Groups patches = patches_of(mesh.triangles, edges);
+  DisjointSets patches = patches_of(mesh.triangles, edges);
   std::vector<char> ends(mesh.triangles.size(), 0), hangs(mesh.triangles.size(), 0);
   for_each_edge(edges, [&](const HalfEdge* first, const HalfEdge* last) {
     for (const HalfEdge* h = first; h != last; ++h) {

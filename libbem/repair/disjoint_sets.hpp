@@ -9,9 +9,9 @@ namespace bem {
 
 /// Numbers 0 .. n - 1 in groups that are united step by step; the lowest number stands for its
 /// group.
-class Groups {
+class DisjointSets {
  public:
-  explicit Groups(std::size_t count) : parent_(count) {
+  explicit DisjointSets(std::size_t count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
 
