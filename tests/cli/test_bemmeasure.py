@@ -42,6 +42,27 @@ class Measure(CliCase):
         self.assertEqual(len(rows), 10)
         self.assertAlmostEqual(float(rows[4]["x"]), 0.05, places=9)
 
+    def test_tables_of_what_is_recorded(self):
+        floor = {"name": "floor", "plane": {"point": [0, 0, -0.1001], "normal": [0, 0, 1]}}
+        self.simulate(obstacles=[floor], contact={}, gravity=[0, 0, -9.81], output={"fields": ["contacts"]})
+        self.measure("--series", "series.csv", "--contacts", "contacts.csv")
+        series, contacts = (list(csv.DictReader((self.folder / f"{name}.csv").read_text().splitlines()))
+                            for name in ("series", "contacts"))
+        self.assertTrue(contacts)
+        with h5py.File(self.folder / "out/trajectory.h5") as file:
+            force, volume = (file[f"bodies/ball/series/{name}"][1:] for name in ("contact_force", "volume_ratio"))
+        for axis, name in enumerate("xyz"):
+            np.testing.assert_allclose([float(row[f"series/contact_force_{name}"]) for row in series], force[:, axis], rtol=1e-8, atol=1e-12)
+        np.testing.assert_allclose([float(row["series/volume_ratio"]) for row in series], volume, rtol=1e-9)
+        for frame, row in enumerate(series):
+            of_frame = [c for c in contacts if c["time"] == row["time"]]
+            self.assertTrue(all((c["first"], c["second"]) == ("ball", "floor") for c in of_frame))
+            self.assertAlmostEqual(sum(float(c["fz"]) for c in of_frame), force[frame, 2], places=7)
+        self.simulate()
+        (self.folder / "contacts.csv").unlink()
+        self.assert_error(self.measure("--contacts", "contacts.csv", code=4), "contacts")
+        self.assertFalse((self.folder / "contacts.csv").exists())
+
     def test_a_turning_body_has_the_energy_of_a_sphere(self):
         self.simulate(bodies=[{"name": "ball", "archive": "a.bem", "angular_velocity": [0, 0, 2]}])
         energy = self.measure()["bodies"][0]["end_kinetic_energy_per_mass"]

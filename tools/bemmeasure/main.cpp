@@ -1,4 +1,4 @@
-/// bemmeasure: measures a trajectory of bemsim by its positions.
+/// bemmeasure: measures a trajectory of bemsim, or compares two.
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -40,6 +40,11 @@ bool parse(int argc, char** argv, Options& o) {
   auto* series =
       app.add_option("--series", o.measure.series, "CSV file with a line per frame and body")
           ->type_name("FILE");
+  auto* contacts =
+      app.add_option("--contacts", o.measure.contacts,
+                     "CSV file with a line per contact of all frames (of trajectories with the "
+                     "field contacts)")
+          ->type_name("FILE");
   auto* diff = app.add_option("--diff", o.compared,
                               "compare two trajectories: exit code 0 if all differences are "
                               "allowed, 1 if not")
@@ -48,7 +53,8 @@ bool parse(int argc, char** argv, Options& o) {
                    ->excludes(scene)
                    ->excludes(trajectory)
                    ->excludes(self)
-                   ->excludes(series);
+                   ->excludes(series)
+                   ->excludes(contacts);
   const auto add = [&](const char* name, double& value, const char* text) {
     app.add_option(name, value, text)->needs(diff)->check(CLI::NonNegativeNumber);
   };
@@ -96,6 +102,7 @@ int measure(const Options& o) {
     if (const auto* mesh = std::get_if<bem::MeshObstacle>(&obstacle.shape))
       files.reads(mesh->mesh.resolved);
   files.writes(o.measure.series);
+  files.writes(o.measure.contacts);
   files.check();
   const bem::Trajectory trajectory(o.trajectory, scene);
   std::cout << bem::measure(scene, trajectory, o.measure).dump(2) << "\n" << std::flush;

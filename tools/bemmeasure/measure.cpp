@@ -8,6 +8,7 @@
 #include "mesh/mass_properties.hpp"
 #include "mesh/mesh_io.hpp"
 #include "mesh/obstacle_surface.hpp"
+#include "recorded.hpp"
 #include "scene/motion.hpp"
 
 #include <algorithm>
@@ -67,7 +68,9 @@ class Measurement {
     records_.resize(scene.bodies.size());
     if (!options.series.empty()) {
       series_file_.emplace(options.series);
-      series_ << "time,body,x,y,z,vx,vy,vz,fastest,kinetic_energy,potential_energy,penetration\n";
+      recorded_.emplace(trajectory.file(), trajectory.names());
+      series_ << "time,body,x,y,z,vx,vy,vz,fastest,kinetic_energy,potential_energy,penetration"
+              << recorded_->header() << "\n";
       series_.precision(10);
     }
   }
@@ -200,7 +203,7 @@ class Measurement {
     for (double x : {r.end[0], r.end[1], r.end[2], r.velocity[0], r.velocity[1], r.velocity[2],
                      r.last_speed, r.energy, -scene_.gravity.dot(r.end), frame_depth_[b]})
       series_ << "," << x;
-    series_ << "\n";
+    series_ << recorded_->row(b, k) << "\n";
   }
 
   const Scene& scene_;
@@ -214,6 +217,7 @@ class Measurement {
   std::map<std::string, Worst> worst_;  ///< by pair
   Worst deepest_;
   std::optional<PendingFile> series_file_;
+  std::optional<RecordedSeries> recorded_;
   std::ostringstream series_;
 };
 
@@ -221,7 +225,12 @@ class Measurement {
 
 nlohmann::ordered_json measure(const Scene& scene, const Trajectory& trajectory,
                                const MeasureOptions& options) {
-  return Measurement(scene, trajectory, options).run();
+  std::optional<PendingFile> contacts;
+  if (!options.contacts.empty()) contacts.emplace(options.contacts);
+  const std::string rows = contacts ? contacts_csv(trajectory.file()) : "";
+  Json found = Measurement(scene, trajectory, options).run();
+  if (contacts) contacts->commit(rows);
+  return found;
 }
 
 }  // namespace bem

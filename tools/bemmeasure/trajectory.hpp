@@ -19,6 +19,9 @@ class Trajectory {
   const std::vector<double>& times() const { return file_.times(); }  ///< [s]
   /// Body b in frame k, world coordinates.
   TriangleMesh body(std::size_t b, std::size_t k) const;
+  const TrajectoryFile& file() const { return file_; }
+  /// Of the simulated surfaces in the file.
+  const std::vector<std::string>& names() const { return names_; }
 
  private:
   std::string simulated(const std::string& body) const;
