@@ -346,7 +346,8 @@ void check_repair_options(const RepairOptions& o) {
   check(o.thickness > 0 && o.thickness <= 0.5, "--thickness", "(0, 0.5]");
   check(o.alpha > 0 && o.alpha <= 1, "--alpha", "(0, 1]");
   check(o.offset > 0 && o.offset <= 0.5, "--offset", "(0, 0.5]");
-  check(!o.nodes || *o.nodes >= 12, "--nodes", "[12, ...)");
+  check(!o.nodes || (*o.nodes >= kFewestNodes && *o.nodes <= kMostNodes), "--nodes",
+        "[" + std::to_string(kFewestNodes) + ", " + std::to_string(kMostNodes) + "]");
   check(o.feature_angle_deg > 0 && o.feature_angle_deg <= 180, "--feature-angle", "(0, 180]");
 }
 

@@ -19,6 +19,9 @@ struct Choices<RepairMode> {
       {RepairMode::off, "off"}, {RepairMode::automatic, "auto"}, {RepairMode::wrap, "wrap"}};
 };
 
+/// How many vertices a mesh can be remeshed to.
+inline constexpr int kFewestNodes = 12, kMostNodes = 1000000;
+
 /// Lengths are relative to the size of a mesh, the diagonal of its bounding box.
 struct RepairOptions {
   RepairMode mode = RepairMode::automatic;
@@ -27,7 +30,7 @@ struct RepairOptions {
   double thickness = 0.02;        ///< that sheets are given; in (0, 0.5]
   double alpha = 0.02;            ///< gaps narrower than this are bridged by wraps; in (0, 1]
   double offset = 0.002;          ///< distance of wraps from the surface; in (0, 0.5]
-  std::optional<int> nodes;       ///< remesh to so many vertices, at least 12
+  std::optional<int> nodes;       ///< remesh to so many vertices
   double feature_angle_deg = 40;  ///< sharper edges stay edges when a mesh is remeshed; (0, 180]
   double unit = 1;                ///< of the mesh's lengths [m], in which the report speaks
 };

@@ -175,7 +175,9 @@ std::vector<Setting> make_settings() {
        "auto)",
        [](Settings& s, Text name, Text text) { s.repair = named<RepairMode>(name, text); }},
       {"nodes", Kind::integer, true, "N", "remesh to about so many vertices (the mesh as it is)",
-       [](Settings& s, Text name, Text text) { s.nodes = number_in(name, text, 12, 10000000); }},
+       [](Settings& s, Text name, Text text) {
+         s.nodes = number_in(name, text, kFewestNodes, kMostNodes);
+       }},
       {"fill-holes", Kind::text, true, "small|all",
        "with repair auto: holes that are closed (small)", set_fill_holes},
       {"thickness", Kind::number, true, "X",
