@@ -125,6 +125,7 @@ struct PairScratch {
   alignas(64) T staying[PairBatch::kRows][PairBatch::kFibres];
   alignas(64) T local[PairBatch::kCapacity];
   const T* interval[PairBatch::kCapacity];
+  std::size_t used_lanes;  ///< of the points: LaneTable::used_lanes
   alignas(64) T radial[kHypersingularCount * PairBatch::kLongestFibre * kLanes];
   alignas(64) T fibre_sums[kFibreSums * PairBatch::kFibres * kLanes];
 };

@@ -93,8 +93,13 @@ void PairCoefficients(const LaneTable<T>& table, const PairScales& scales, const
     for (int i = 0; i < 3; ++i)
       store(kOfDilation + i, hn::MulAdd(along_m, m[i], hn::Mul(along_n, n[i])));
   }
-  for (int q = 0; q < padded_size; ++q)
-    scratch.interval[q] = table.interval(static_cast<int>(intervals[q]));
+  int used_lanes = 0;
+  for (int q = 0; q < padded_size; ++q) {
+    const int interval = static_cast<int>(intervals[q]);
+    scratch.interval[q] = table.interval(interval);
+    used_lanes = std::max(used_lanes, table.used_lanes[interval]);
+  }
+  scratch.used_lanes = used_lanes;
 }
 
 /// The first radial function that is wanted, with Z or without it: those of J come last.

@@ -210,7 +210,7 @@ HWY_INLINE void AccumulateLanes(D d, std::size_t lane, const LaneTable<T>& table
 template <bool with_inertia, bool x_stays, class T>
 void AccumulateBatch(const LaneTable<T>& table, const PairBatch& batch, PairScratch<T>& scratch,
                      const PairSums<T>& sums) {
-  ForLanes<T>(table.padded_lanes, [&](auto d, std::size_t lane) {
+  ForLanes<T>(scratch.used_lanes, [&](auto d, std::size_t lane) {
     AccumulateLanes<with_inertia, x_stays>(d, lane, table, batch, scratch, sums);
   });
 }

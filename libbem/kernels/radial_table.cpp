@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Dense>
 
@@ -166,6 +167,36 @@ void RadialTable::build(const RadialWeights& weights) {
     tabulate(weights, static_cast<int>(interval),
              &lanes_.coefficients[interval * lanes_.interval_size()]);
   });
+  lanes_.find_used_lanes();
+}
+
+namespace {
+
+/// The lanes of a function's polynomials that count.
+template <class T>
+int used_lanes_of(const T* coefficients, int lanes, std::size_t stride) {
+  std::vector<double> bounds(lanes, 0.0);
+  for (int degree = 0; degree < LaneTable<T>::kNodes; ++degree)
+    for (int lane = 0; lane < lanes; ++lane)
+      bounds[lane] += std::fabs(static_cast<double>(coefficients[degree * stride + lane]));
+  const double least =
+      std::numeric_limits<T>::epsilon() / 8 * *std::max_element(bounds.begin(), bounds.end());
+  while (lanes > 0 && bounds[lanes - 1] <= least) --lanes;
+  return lanes;
+}
+
+}  // namespace
+
+template <class T>
+void LaneTable<T>::find_used_lanes() {
+  used_lanes.assign(intervals, 0);
+  const std::size_t stride = padded_lanes;
+  for (int i = 0; i < intervals; ++i) {
+    for (int f = 0; f < functions; ++f)
+      used_lanes[i] =
+          std::max(used_lanes[i], used_lanes_of(interval(i) + f * kNodes * stride, lanes, stride));
+    used_lanes[i] = (used_lanes[i] + kLanePadding - 1) / kLanePadding * kLanePadding;
+  }
 }
 
 template <class T>
@@ -193,6 +224,7 @@ LaneTable<float> RadialTable::single_precision() const {
   };
   convert(lanes_.coefficients, narrow.coefficients);
   convert(lanes_.static_parts, narrow.static_parts);
+  narrow.find_used_lanes();
   return narrow;
 }
 

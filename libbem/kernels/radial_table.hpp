@@ -29,6 +29,7 @@ struct LaneTable {
   double scale = 0;               ///< intervals per unit of the graded variable
   AlignedVector<T> coefficients;  ///< [interval][function][degree][padded lane]
   AlignedVector<T> static_parts;  ///< [function][padded lane], see static_part()
+  std::vector<int> used_lanes;    ///< by interval, see find_used_lanes()
 
   void set_size(int function_count, int count) {
     functions = function_count;
@@ -54,6 +55,10 @@ struct LaneTable {
   const T* static_part(int function) const {
     return static_parts.data() + static_cast<std::size_t>(function) * padded_lanes;
   }
+  /// Finds how many lanes count in each interval, a multiple of kLanePadding: all later ones are
+  /// zero to an eighth of rounding beside the largest one of their function. A short way concerns
+  /// few lags.
+  void find_used_lanes();
   /// Interpolated values out[function*padded_lanes + lane].
   void evaluate(double lam, double* out) const;
 };
