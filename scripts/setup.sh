@@ -21,13 +21,13 @@ packages=(
   build-essential cmake ninja-build pkg-config
   libeigen3-dev libhdf5-dev libassimp-dev libcli11-dev nlohmann-json3-dev libfftw3-dev catch2
   libcgal-dev libblis-serial-dev libhwy-dev libtbb-dev libxxhash-dev zlib1g-dev
-  python3 python3-h5py python3-numpy python3-matplotlib
+  python3 python3-h5py python3-numpy python3-matplotlib python3-pil
 )
 optional=(ffmpeg)
 add_npm() { command -v npm >/dev/null || packages+=(nodejs npm); }
 for argument in "$@"; do
   case "$argument" in
-    --test) packages+=(python3-vtk9 python3-pil); optional+=(chromium); add_npm ;;
+    --test) packages+=(python3-vtk9); optional+=(chromium); add_npm ;;
     --bench) packages+=(libbenchmark-dev libopenblas-dev); optional+=(libsiconos-numerics-dev) ;;
     --lint) packages+=(clang-format clang-tidy) ;;
     --npm) add_npm ;;
