@@ -79,7 +79,7 @@ def draw_fig1(workspace, runs, target):
     for name in runs:
         fish.paint(workspace.folder / "fish.obj", painted, image)
         pictures.render(workspace, workspace.trajectory(name), None, "--sheet", target / "fig1.png", "--columns", 3,
-                        "--at", "0,0.12,0.6", "--size", "640x600", "--up", "z", "--view", "15,38",
+                        "--at", "0,0.12,0.6", "--size", "560x540", "--up", "z", "--view", "15,45",
                         "--texture", painted, image, "--floor", "none", "--no-text")
     return ["fig1.png"] if runs else []
 

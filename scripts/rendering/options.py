@@ -111,7 +111,7 @@ def _joined(arguments):
 
 
 def _parser():
-    parser = Parser(prog="render.py", description="Draws a trajectory.h5 as PNG frames, a contact sheet, a still and a "
+    parser = Parser(description="Draws a trajectory.h5 as PNG frames, a contact sheet, a still and a "
                     "video, with the obstacles that are in it. Exit codes: 0 ok, 2 usage, 3 invalid input, 6 an output "
                     "cannot be written.")
     parser.add_argument("trajectory", metavar="TRAJECTORY.h5")

@@ -8,7 +8,11 @@ from PIL import Image
 
 FORMATS = (".mp4", ".gif")
 PALETTE_PICTURES = 12  # of a GIF, from which its colours are chosen
+PALETTE_STEP = 4  # colours that differ by less count as one when the palette is chosen
 GIF_COLORS = 255  # and one for pixels that stay as they are
+DITHER = 8  # of 255
+# Bayer's matrix, from -0.5 to 0.5.
+_PATTERN = (np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]]) - 7.5) / 16
 
 
 def is_gif(path):
@@ -63,7 +67,7 @@ class Gif:
         palette = self._palette()
         frames, before = [], None
         for pixels in self.pictures:
-            now = np.asarray(Image.fromarray(pixels).quantize(palette=palette, dither=Image.Dither.NONE))
+            now = np.asarray(Image.fromarray(_dithered(pixels)).quantize(palette=palette, dither=Image.Dither.NONE))
             frames.append(self._frame(now if before is None else np.where(now == before, GIF_COLORS, now), palette))
             before = now
         frames[0].save(self.path, save_all=True, append_images=frames[1:], loop=0, disposal=1, transparency=GIF_COLORS,
@@ -73,8 +77,11 @@ class Gif:
         """A picture with the palette of the whole video. Its last colour occurs nowhere: Pillow takes pixels of equal
         colour for equal."""
         chosen = np.unique(np.linspace(0, len(self.pictures) - 1, PALETTE_PICTURES).round().astype(int))
-        sample = np.concatenate([self.pictures[k] for k in chosen])
-        palette = Image.fromarray(sample).quantize(GIF_COLORS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+        sample = np.concatenate([self.pictures[k].reshape(-1, 3) for k in chosen])
+        # The square root of how often a colour occurs: the background would take all colours.
+        colors, counts = np.unique(sample // PALETTE_STEP * PALETTE_STEP, axis=0, return_counts=True)
+        sample = np.repeat(colors, np.ceil(np.sqrt(counts)).astype(int), axis=0)
+        palette = Image.fromarray(sample[None]).quantize(GIF_COLORS, method=Image.Quantize.MEDIANCUT)
         used = palette.getpalette()[:3 * GIF_COLORS]
         used += used[:3] * (GIF_COLORS - len(used) // 3)
         taken = {tuple(used[k:k + 3]) for k in range(0, len(used), 3)}
@@ -92,3 +99,10 @@ class Gif:
         """Milliseconds of each picture: GIF counts hundredths of a second, so the ends are rounded, not the lengths."""
         ends = np.round(np.arange(count + 1) * 100 / self.rate).astype(int)
         return (10 * np.maximum(np.diff(ends), 2)).tolist()  # browsers slow down what is faster than 50 per second
+
+
+def _dithered(pixels):
+    """With a pattern that hides the steps between the colours, and that stays the same where the picture does."""
+    height, width, _ = pixels.shape
+    pattern = np.tile(_PATTERN, (height // 4 + 1, width // 4 + 1))[:height, :width, None]
+    return np.clip(np.round(pixels + DITHER * pattern), 0, 255).astype(np.uint8)
