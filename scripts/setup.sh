@@ -20,7 +20,8 @@ fail() {
 packages=(
   build-essential cmake ninja-build pkg-config
   libeigen3-dev libhdf5-dev libassimp-dev libcli11-dev nlohmann-json3-dev libfftw3-dev catch2
-  libcgal-dev libblis-serial-dev libhwy-dev libtbb-dev libxxhash-dev zlib1g-dev help2man
+  libcgal-dev libblis-serial-dev libhwy-dev libtbb-dev libxxhash-dev zlib1g-dev
+  help2man file
   python3 python3-h5py python3-numpy python3-matplotlib python3-pil
 )
 optional=(ffmpeg)
