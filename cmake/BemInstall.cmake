@@ -19,27 +19,26 @@ install(FILES ${PROJECT_BINARY_DIR}/bemConfig.cmake ${PROJECT_BINARY_DIR}/bemCon
 set(BEM_SCRIPTS ${CMAKE_INSTALL_DATADIR}/bem/scripts)
 install(PROGRAMS scripts/render.py scripts/refine_mesh.py scripts/textured_mesh.py scripts/page_picture.py scripts/bunny_to_obj.py
                  scripts/fetch_meshes.sh
-        DESTINATION ${BEM_SCRIPTS} COMPONENT programs)
-install(DIRECTORY scripts/rendering scripts/common DESTINATION ${BEM_SCRIPTS} COMPONENT programs
+        DESTINATION ${BEM_SCRIPTS})
+install(DIRECTORY scripts/rendering scripts/common DESTINATION ${BEM_SCRIPTS}
         FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 file(CREATE_LINK ../${BEM_SCRIPTS}/render.py ${PROJECT_BINARY_DIR}/bemrender SYMBOLIC)
-install(PROGRAMS ${PROJECT_BINARY_DIR}/bemrender DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+install(PROGRAMS ${PROJECT_BINARY_DIR}/bemrender DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 foreach(program bemprecomp bemsim bemshape bemmeasure bemrecode bemview bemrender)
-  install(FILES packaging/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program}
-          COMPONENT programs)
+  install(FILES packaging/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
 endforeach()
 # Debian's zsh looks for completions of packages in a folder of its own.
 install(CODE "set(bem_zsh site-functions)
   if(CMAKE_INSTALL_PREFIX MATCHES \"/usr$\")
     set(bem_zsh vendor-completions)
-  endif()" COMPONENT programs)
-install(FILES packaging/completion.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/\${bem_zsh} RENAME _bem COMPONENT programs)
+  endif()")
+install(FILES packaging/completion.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/\${bem_zsh} RENAME _bem)
 
 # The links between the documents hold there as they do in the source tree.
-install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/bem COMPONENT programs)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/bem RENAME copyright COMPONENT programs)
-install(DIRECTORY docs scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/bem COMPONENT programs)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/bem)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/bem RENAME copyright)
+install(DIRECTORY docs scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/bem)
 include(BemManual)
 
 add_custom_target(uninstall COMMAND ${CMAKE_COMMAND} -DMANIFEST=${PROJECT_BINARY_DIR}/install_manifest.txt

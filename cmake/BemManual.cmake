@@ -35,4 +35,4 @@ bem_manual_page(bemrender ${BEM_MANUAL}/bemrender "draw pictures and videos of a
 
 get_property(pages GLOBAL PROPERTY BEM_MANUAL_PAGES)
 add_custom_target(manual ALL DEPENDS ${pages})
-install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs OPTIONAL)
+install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)

@@ -15,10 +15,14 @@ import sys
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(variable, "1")  # one process per frame; their results stay the same
 
-from rendering import outputs, trajectory  # noqa: E402
-from rendering import options as command_line  # noqa: E402
-from rendering.hdf5 import InvalidInput  # noqa: E402
-from rendering.renderer import Renderer  # noqa: E402
+try:
+    from rendering import outputs, trajectory
+    from rendering import options as command_line
+    from rendering.hdf5 import InvalidInput
+    from rendering.renderer import Renderer
+except ModuleNotFoundError as missing:
+    sys.stderr.write(f"error: {missing}: pictures need the packages python3-numpy, python3-h5py and python3-pil\n")
+    sys.exit(6)
 
 
 def run(options):

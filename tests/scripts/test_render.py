@@ -365,6 +365,11 @@ class Pictures(unittest.TestCase):
             file["bodies/left/faces"][0, 0] = 8
         self.assertIn("outside 0..7", fails(3, *out))
         self.two_moving_boxes()
+        (self.folder / "PIL.py").write_text("raise ModuleNotFoundError('No module named PIL')\n")
+        os.environ["PYTHONPATH"] = str(self.folder)
+        self.addCleanup(os.environ.pop, "PYTHONPATH")
+        self.assertIn("python3-pil", fails(6, *out))
+        (self.folder / "PIL.py").unlink()
         blocked = self.folder / "blocked"
         blocked.write_text("")
         fails(6, "-o", blocked / "out")
