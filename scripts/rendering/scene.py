@@ -93,8 +93,7 @@ class Stage:
             picture = picture * (1 - GHOST_OPACITY * cover)[:, None] + GHOST_OPACITY * color
         color, cover = self._bodies(shapes, surface)
         picture = picture * (1 - cover)[:, None] + color
-        encoded = np.round(255 * colors.to_srgb(picture)).astype(np.uint8)
-        return encoded.reshape(self.height, self.width, 3)
+        return colors.to_bytes(picture).reshape(self.height, self.width, 3)
 
     def _bodies(self, shapes, surface):
         """Linear light [pixels, 3], already weighted by the covered share of each pixel [pixels]."""

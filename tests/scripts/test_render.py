@@ -440,6 +440,12 @@ class Geometry(unittest.TestCase):
         self.assertEqual(list(trajectory.select_frames(times, rate=5.0)), [0, 2, 4, 6, 8, 10])
         self.assertEqual(list(trajectory.select_frames(times, rate=20.0))[:5:2], [0, 1, 2])
 
+    def test_bytes_are_those_of_the_srgb_curve(self):
+        linear = np.concatenate([np.linspace(-0.1, 1.1, 2001), np.linspace(0, 0.004, 500)])
+        exact = 255 * colors.to_srgb(linear)
+        self.assertLess(np.abs(colors.to_bytes(linear) - exact).max(), 0.53)
+        np.testing.assert_allclose(colors.to_linear(exact / 255), np.clip(linear, 0, 1), atol=1e-6)
+
     def test_ticks_are_round_and_carry_the_unit(self):
         scale = colors.Scale("deformation", "m", 0.0, 0.0123)
         values, texts = scale.ticks()
