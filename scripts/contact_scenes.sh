@@ -88,12 +88,12 @@ prepare() {  # SCENE: its meshes
 
 look() {  # SCENE: how it is drawn
   case "$1" in
-    bunny*) echo --view 20,25 --columns 3 --sheet-frames 6 --obstacle-plane y=0 --color body ;;
-    bowl | *fish-*) echo --up z --view 20,62 --columns 3 --sheet-frames 6 --color body ;;
-    chain) echo --view 0,5 --columns 4 --color body ;;
-    lift) echo --view 10,15 --columns 4 --obstacle-plane y=-0.4 --color body ;;
+    bunny*) echo --view 20,25 --columns 3 --sheet-frames 6 ;;
+    bowl | *fish-*) echo --up z --view 20,62 --columns 3 --sheet-frames 6 ;;
+    chain) echo --view 0,5 --columns 4 ;;
+    lift) echo --view 10,15 --columns 4 ;;
     self | no-self) echo --view 15,20 --columns 3 --sheet-frames 6 --color deformation ;;
-    *) echo --view 30,20 --columns 3 --sheet-frames 6 --color body ;;
+    *) echo --view 30,20 --columns 3 --sheet-frames 6 ;;
   esac
 }
 
@@ -108,6 +108,6 @@ for scene in "${scenes[@]}"; do
   "$bin/bemmeasure" "$file" "$out/$scene/trajectory.h5" --series "$out/$scene.csv" "${measured[@]}" \
     >"$out/$scene.measure.json"
   read -ra drawing < <(look "$scene")
-  scripts/render.py "$out/$scene/trajectory.h5" --sheet "$out/$scene.png" --scene "$file" -q "${drawing[@]}"
+  scripts/render.py "$out/$scene/trajectory.h5" --sheet "$out/$scene.png" -q "${drawing[@]}"
 done
 scripts/contact_tables.py "$out" "${scenes[@]}"

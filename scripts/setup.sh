@@ -21,13 +21,14 @@ packages=(
   build-essential cmake ninja-build pkg-config
   libeigen3-dev libhdf5-dev libassimp-dev libcli11-dev nlohmann-json3-dev libfftw3-dev catch2
   libcgal-dev libblis-serial-dev libhwy-dev libtbb-dev libxxhash-dev zlib1g-dev
-  python3 python3-h5py python3-numpy python3-matplotlib
+  help2man file
+  python3 python3-h5py python3-numpy python3-matplotlib python3-pil
 )
 optional=(ffmpeg)
 add_npm() { command -v npm >/dev/null || packages+=(nodejs npm); }
 for argument in "$@"; do
   case "$argument" in
-    --test) packages+=(python3-vtk9 python3-pil); optional+=(chromium); add_npm ;;
+    --test) packages+=(python3-vtk9); optional+=(chromium zsh); add_npm ;;
     --bench) packages+=(libbenchmark-dev libopenblas-dev); optional+=(libsiconos-numerics-dev) ;;
     --lint) packages+=(clang-format clang-tidy) ;;
     --npm) add_npm ;;
@@ -77,5 +78,5 @@ fi
 mapfile -t missing < <(missing_of "${optional[@]}")
 if [[ ${#missing[@]} -gt 0 ]]; then
   echo "Installing ${missing[*]} (optional)"
-  install "${missing[@]}" || echo "warning: not installed: ${missing[*]} (videos need ffmpeg, the test of bemview's page Chromium; Siconos is for comparisons)" >&2
+  install "${missing[@]}" || echo "warning: not installed: ${missing[*]} (videos need ffmpeg, the test of bemview's page Chromium, that of completion zsh; Siconos is for comparisons)" >&2
 fi

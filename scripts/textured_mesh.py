@@ -68,7 +68,7 @@ def main(arguments):
         folder.mkdir(parents=True, exist_ok=True)
         write_mesh(folder / "knot.obj")
         (folder / "knot.mtl").write_text("newmtl checker\nKd 1 1 1\nmap_Kd checker.png\n")
-        picture.write_png(folder / "checker.png", checker())
+        picture.save(folder / "checker.png", checker())
     except OSError as error:
         sys.stderr.write(f"error: {error}\n")
         return 6

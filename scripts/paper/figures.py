@@ -1,11 +1,11 @@
 """The figures of the paper: what is measured in our runs (`numbers_*`), and how they are drawn (`draw_*`)."""
 import numpy as np
 
-from . import measures, pictures
+from . import fish, measures, pictures
 from .catalogue import FIGURES, SCENES
 
 STOP = 0.03  # [s] when the handles of fig4-torus stand still
-FLAT = ("--no-time", "--fov", 5)  # poses side by side: hardly any perspective
+FLAT = ("--no-time", "--floor", "none", "--fov", 5)  # poses side by side: hardly any perspective
 
 
 def runs_of(workspace, figure):
@@ -75,12 +75,12 @@ def self_penetration(workspace, name, motion):
 
 
 def draw_fig1(workspace, runs, target):
-    for name, motion in runs.items():
-        last = len(motion.times) - 1
-        pictures.save(workspace.folder / "fig1.h5", motion, [0, last // 5, last])
-        pictures.render(workspace, workspace.folder / "fig1.h5", None, "--sheet", target / "fig1.png", "--columns", 3,
-                        "--sheet-frames", 3, "--size", "380x330", "--up", "z", "--view", "20,48", "--color", "body",
-                        "--scene", workspace.folder / f"{name}.scene.json", "--no-text")
+    painted, image = workspace.folder / "fish-painted.obj", workspace.folder / "fish.png"
+    for name in runs:
+        fish.paint(workspace.folder / "fish.obj", painted, image)
+        pictures.render(workspace, workspace.trajectory(name), None, "--sheet", target / "fig1.png", "--columns", 3,
+                        "--at", "0,0.12,0.6", "--size", "560x540", "--up", "z", "--view", "15,45",
+                        "--texture", painted, image, "--floor", "none", "--no-text")
     return ["fig1.png"] if runs else []
 
 
@@ -128,7 +128,7 @@ def draw_fig8(workspace, runs, target):
     rows = [(f"friction {name[-3:]}", motion, (0, 0, 0.24 * k)) for k, (name, motion) in enumerate(runs.items())]
     pictures.join_runs(workspace.folder / "fig8.h5", rows, times)
     pictures.render(workspace, workspace.folder / "fig8.h5", target / "fig8.png", "--color", "body", "--view", "8,32",
-                    "--size", "700x440", "--obstacle-plane", "y=0", "--ghosts", len(times) - 1, "--no-time")
+                    "--size", "700x440", "--floor", "y=0", "--ghosts", len(times) - 1, "--no-time")
     return ["fig8.png"]
 
 

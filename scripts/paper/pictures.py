@@ -5,7 +5,7 @@ import numpy as np
 from common.programs import ROOT
 from rendering import camera
 
-LIMIT = 150_000  # bytes of a picture of the documents
+LIMIT = 400_000  # bytes of a picture of the documents
 
 
 def join(path, poses):

@@ -27,6 +27,14 @@ def to_srgb(linear):
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
+_BYTES = np.round(255 * to_srgb(np.arange(65536) / 65535)).astype(np.uint8)
+
+
+def to_bytes(linear):
+    """Linear light to sRGB-encoded bytes, by a table: computing powers takes ten times as long."""
+    return _BYTES[(np.clip(linear, 0.0, 1.0) * 65535 + 0.5).astype(np.uint16)]
+
+
 def from_hex(text):
     """The sRGB triples 0..1 of a string of hexadecimal colours."""
     return np.frombuffer(bytes.fromhex(text), dtype=np.uint8).reshape(-1, 3) / 255.0

@@ -7,6 +7,51 @@ def normalised(vectors):
     return vectors / np.maximum(length, 1e-300)
 
 
+class Extent:
+    """The box of some motions, each [frames, N, 3], and the sphere around it."""
+
+    def __init__(self, motions):
+        self.low = np.min([x.min(axis=(0, 1)) for x in motions], axis=0)
+        self.high = np.max([x.max(axis=(0, 1)) for x in motions], axis=0)
+        self.center = (self.low + self.high) / 2
+        self.radius = max(float(np.linalg.norm(self.high - self.low)) / 2, 1e-12)
+
+    def near(self, points):
+        """Those of the points that lie within a radius of the box."""
+        return points[((points > self.low - self.radius) & (points < self.high + self.radius)).all(axis=1)]
+
+
+def plane_axes(normal):
+    """Two unit vectors [2, 3] that span the plane with the unit normal: u, v, normal are right-handed."""
+    helper = np.eye(3)[np.argmin(np.abs(normal))]
+    u = normalised(np.cross(helper, normal))
+    return np.stack([u, np.cross(normal, u)])
+
+
+def split_long_edges(points, faces, longest, rounds):
+    """Points and faces of the same surface in which each triangle with an edge above `longest` has become four, that
+    many rounds at most. Neighbours of such a triangle may keep a long edge, on which its new point lies."""
+    for _ in range(rounds):
+        corners = points[faces]
+        long = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1) > longest
+        if not long.any():
+            break
+        a, b, c = np.moveaxis(corners[long], 1, 0)
+        start = len(points) + np.arange(long.sum())
+        ab, bc, ca = start, start + len(start), start + 2 * len(start)
+        points = np.concatenate([points, (a + b) / 2, (b + c) / 2, (c + a) / 2])
+        old = faces[long].T
+        four = [(old[0], ab, ca), (old[1], bc, ab), (old[2], ca, bc), (ab, bc, ca)]
+        faces = np.concatenate([faces[~long], *(np.stack(t, axis=1) for t in four)])
+    return points, faces
+
+
+def is_closed(faces):
+    """Whether every edge is passed as often in one direction as in the other."""
+    ends = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    return np.array_equal(*(e[np.lexsort(e.T)] for e in (ends, ends[:, ::-1])))
+
+
 def face_normals(points, faces):
     """Unnormalised normals [M, 3]; their length is twice the triangle's area."""
     a, b, c = (points[faces[:, k]] for k in range(3))

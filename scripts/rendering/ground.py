@@ -4,7 +4,7 @@ import dataclasses
 import numpy as np
 
 from .colors import nice_step
-from .geometry import normalised
+from .geometry import plane_axes
 from .raster import visible_triangles
 
 TEXELS = 320  # along the longer side of the largest shadow
@@ -20,11 +20,10 @@ class Ground:
     texel: float = 0.0  # [m]
     center: np.ndarray = None  # [m] middle of the part that is drawn
     radius: float = 1.0  # [m] where the plane starts to fade
+    bounds: np.ndarray = None  # [m] [2, 2] of all shadows in plane coordinates
 
     def axes(self):
-        helper = np.eye(3)[np.argmin(np.abs(self.normal))]
-        u = normalised(np.cross(helper, self.normal))
-        return np.stack([u, np.cross(self.normal, u)])
+        return plane_axes(self.normal)
 
     def height(self, points):
         return points @ self.normal - self.offset
@@ -43,6 +42,7 @@ class Ground:
             largest = max(largest, np.ptp(flat, axis=0).max())
         low = np.min([c[0] for c in corners], axis=0)
         high = np.max([c[1] for c in corners], axis=0)
+        self.bounds = np.stack([low, high])
         self.texel = max(largest, 1e-12) / TEXELS
         self.center = ((low + high) / 2) @ self.axes() + self.offset * self.normal
         self.radius = max(np.linalg.norm(high - low) / 2, self.body_size)
@@ -55,8 +55,9 @@ class GroundShadow:
         self.ground = ground
         lit, below = ground.dropped(points, ground.light), ground.dropped(points, ground.normal)
         pad = int(0.35 * ground.body_size / ground.texel) + 4
-        low = np.minimum(lit.min(axis=0), below.min(axis=0)) / ground.texel
-        high = np.maximum(lit.max(axis=0), below.max(axis=0)) / ground.texel
+        bounds = ground.bounds / ground.texel
+        low = np.maximum(np.minimum(lit.min(axis=0), below.min(axis=0)) / ground.texel, bounds[0])
+        high = np.minimum(np.maximum(lit.max(axis=0), below.max(axis=0)) / ground.texel, bounds[1])
         self.origin = np.floor(low).astype(int) - pad
         columns, rows = (_fast_size(n) for n in np.ceil(high).astype(int) + pad - self.origin)
         height = np.maximum(ground.height(points), 0.0)

@@ -1,64 +1,81 @@
-"""The mesh obstacles of a scene (docs/scene-format.md) and where they are at given times."""
-import json
-import pathlib
+"""The obstacles of a trajectory: meshes with their poses, and planes."""
+import dataclasses
 
 import numpy as np
 
-from common import obj
+from . import geometry, hdf5
+from .hdf5 import InvalidInput
 
-from .trajectory import Body, InvalidInput
-
-
-def load(path, times):
-    """The mesh obstacles of the scene file, and of those that it includes, as bodies with a position per time; planes are
-    left out."""
-    try:
-        return _load(pathlib.Path(path), times)
-    except OSError as error:
-        raise InvalidInput(f"{error.filename}: {error.strerror}") from None
-    except (ValueError, KeyError, TypeError, AttributeError, IndexError):
-        raise InvalidInput(f"{path}: not a scene whose obstacles can be drawn (meshes as OBJ files)") from None
+SPLIT_ROUNDS = 6  # at most 4096 parts of a triangle
+PATCH_CELLS = 24  # of a plane that is drawn as a patch, along each side
 
 
-def _load(path, times):
-    scene = json.loads(path.read_text(encoding="utf-8"))
-    included = scene.get("include", [])
-    bodies = []
-    for name in [included] if isinstance(included, str) else included:
-        bodies += _load(path.parent / name, times)
-    return bodies + [_body(obstacle, path.parent, times) for obstacle in scene.get("obstacles", []) if "mesh" in obstacle]
+@dataclasses.dataclass
+class Obstacle:
+    """A rigid mesh: in the k-th drawn frame its vertices are at translation[k] + rotation[k] vertex."""
+    name: str
+    faces: np.ndarray  # [M, 3]
+    vertices: np.ndarray  # [N, 3] [m]
+    translation: np.ndarray  # [frames, 3] [m]
+    rotation: np.ndarray  # [frames, 3, 3]
+    casts_shadow: bool = True
+
+    def at(self, frame):
+        return self.vertices @ self.rotation[frame].T + self.translation[frame]
+
+    def split(self, longest):
+        """The same surface of triangles with no edge longer than `longest` [m]: the renderer drops whole triangles
+        that reach behind the camera."""
+        vertices, faces = geometry.split_long_edges(self.vertices, self.faces, longest, SPLIT_ROUNDS)
+        return dataclasses.replace(self, vertices=vertices, faces=faces)
 
 
-def _body(obstacle, folder, times):
-    vertices, polygons = obj.read(folder / obstacle["mesh"])
-    vertices = np.array(vertices)
-    faces = np.array([[p[0], a, b] for p in polygons for a, b in zip(p[1:], p[2:])], dtype=np.int64)
-    rest = vertices + np.array(obstacle.get("position", [0, 0, 0]), dtype=float)
-    positions = np.stack([_moved(rest, obstacle.get("motion", []), t) for t in times])
-    return Body(obstacle["name"], faces, rest, positions, None)
+@dataclasses.dataclass
+class Plane:
+    """The points x with normal . x = offset; the normal, of length 1, points out of the obstacle."""
+    name: str
+    normal: np.ndarray
+    offset: float  # [m]
+
+    def patch(self, center, radius, frames):
+        """A square of the plane, around the point of it next to `center` and 2 `radius` wide, as an Obstacle."""
+        u, v = geometry.plane_axes(self.normal)
+        middle = center - (center @ self.normal - self.offset) * self.normal
+        line = np.linspace(-radius, radius, PATCH_CELLS + 1)
+        vertices = middle + line[:, None, None] * u + line[None, :, None] * v
+        row, column = np.mgrid[:PATCH_CELLS, :PATCH_CELLS].reshape(2, -1)
+        a = row * (PATCH_CELLS + 1) + column
+        b, c, d = a + PATCH_CELLS + 1, a + PATCH_CELLS + 2, a + 1
+        faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+        return Obstacle(self.name, faces, vertices.reshape(-1, 3), np.zeros((frames, 3)),
+                        np.broadcast_to(np.eye(3), (frames, 3, 3)), casts_shadow=False)
 
 
-def _moved(points, motion, time):
-    """Between two keyframes about the axis of the later one that turns: different axes are not blended."""
-    if not motion:
-        return points
-    keys, about = [], [0, 0, 0]
-    for key in motion:
-        about = key.get("about", about)
-        turn = key.get("rotate", {})
-        keys.append((key["time"], key.get("translate", [0, 0, 0]), about, turn.get("angle_deg", 0.0),
-                     turn.get("axis")))
-    start = [k[0] for k in keys]
-    translate, center = ([np.interp(time, start, [k[which][i] for k in keys]) for i in range(3)]
-                         for which in (1, 2))
-    angle = np.radians(np.interp(time, start, [k[3] for k in keys]))
-    after = min(np.searchsorted(start, time), len(keys) - 1)
-    axes = [k[4] for k in (keys[after], keys[max(after - 1, 0)]) if k[4] is not None]
-    rotation = _rotation(axes[0], angle) if axes else np.eye(3)
-    return (points - center) @ rotation.T + center + translate
+def load(file, indices):
+    """The mesh obstacles and the planes of an open trajectory, in the frames `indices`; of a file of version 1 none.
+    Raises InvalidInput."""
+    groups = file.get("obstacles", {})
+    meshes = [_mesh(file, name, indices) for name, group in groups.items() if "vertices" in group]
+    planes = [_plane(file, name) for name, group in groups.items() if "normal" in group]
+    return meshes, planes
 
 
-def _rotation(axis, angle):
-    x, y, z = np.array(axis, dtype=float) / np.linalg.norm(axis)
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+def _mesh(file, name, indices):
+    where = f"/obstacles/{name}"
+    vertices = hdf5.numbers(file, f"{where}/vertices", (None, 3))
+    faces = hdf5.faces(file, f"{where}/faces", len(vertices))
+    last = int(indices.max())
+    poses = [hdf5.dataset(file, f"{where}/{key}", dimensions) for key, dimensions in (("translation", 2), ("rotation", 3))]
+    if any(len(pose) <= last or set(pose.shape[1:]) != {3} for pose in poses):
+        raise InvalidInput(f"{file.filename}: {where} has no pose of 3 and 3 x 3 numbers in frame {last}")
+    if not geometry.is_closed(faces):
+        faces = np.concatenate([faces, faces[:, ::-1]])  # seen from both sides
+    return Obstacle(name, faces, vertices, *(hdf5.frames(pose, indices) for pose in poses))
+
+
+def _plane(file, name):
+    point, normal = (hdf5.numbers(file, f"/obstacles/{name}/{key}", (3,)) for key in ("point", "normal"))
+    length = np.linalg.norm(normal)
+    if length == 0:
+        raise InvalidInput(f"{file.filename}: /obstacles/{name}/normal is zero")
+    return Plane(name, normal / length, float(point @ normal / length))

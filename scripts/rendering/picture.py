@@ -1,17 +1,6 @@
-"""Pictures as files: PNG writing, captions, colour bars, contact sheets, and video."""
-import shutil
-import struct
-import subprocess
-import zlib
-
+"""Pictures as files: captions, colour bars, contact sheets."""
 import numpy as np
-
-from . import colors
-
-try:
-    from PIL import Image, ImageDraw, ImageFont
-except ImportError:  # pictures are then drawn without texts
-    Image = None
+from PIL import Image, ImageDraw, ImageFont
 
 FONTS = ("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "DejaVuSans.ttf")
 INK = (44, 52, 64)
@@ -19,42 +8,23 @@ FAINT_INK = (104, 114, 128)
 PAPER = (247, 249, 251)
 
 
-def can_write_text():
-    return Image is not None
-
-
-def write_png(path, pixels):
-    """Writes [height, width, 3] bytes as an RGB PNG, the same bytes for the same pixels."""
-    height, width, _ = pixels.shape
-    flat = pixels.reshape(height, -1).astype(np.int16)
-    above = np.concatenate([np.zeros_like(flat[:1]), flat[:-1]])
-    rows = np.empty((height, 1 + 3 * width), dtype=np.uint8)
-    rows[:, 0] = 2  # filter "up": what changes from the row above
-    rows[:, 1:] = (flat - above) & 255
-
-    def chunk(kind, data):
-        body = kind + data
-        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
-
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header)
-                   + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b""))
+def save(path, pixels):
+    """Writes [height, width, 3] bytes as a picture of the kind that the name's end says, the same bytes for the same
+    pixels."""
+    Image.fromarray(pixels).save(path)
 
 
 class Captions:
-    """Draws texts and colour bars into pictures of one height; does nothing without PIL."""
+    """Draws texts and colour bars into pictures of one height."""
 
     def __init__(self, picture_height):
         self.size = int(np.clip(round(picture_height * 0.029), 11, 40))
-        self.font = _font(self.size) if Image else None
-        self.small = _font(max(10, round(self.size * 0.85))) if Image else None
+        self.font = _font(self.size)
+        self.small = _font(max(10, round(self.size * 0.85)))
 
     def annotate(self, pixels, time_text, note="", scale=None, legend=()):
         """A copy of the picture with the time at the lower left, a note at the lower right, and at
         the right a colour bar, or at the upper left a legend of (name, sRGB colour) pairs."""
-        if not Image:
-            return pixels
         image = Image.fromarray(pixels)
         canvas = ImageDraw.Draw(image)
         width, height = image.size
@@ -62,17 +32,27 @@ class Captions:
         canvas.text((pad, height - pad), time_text, INK, self.font, anchor="ls")
         if note:
             canvas.text((width - pad, height - pad), note, FAINT_INK, self.small, anchor="rs")
-        for row, (name, color) in enumerate(legend):
-            y = pad + row * round(1.6 * self.size)
-            _chip(canvas, (pad, y, pad + self.size, y + self.size), color)
-            canvas.text((pad + 1.6 * self.size, y + self.size / 2), name, INK, self.small, anchor="lm")
+        self._legend(canvas, legend, pad, height - 3 * pad - self.size)
         if scale:
             self.bar(image, width - pad, round(0.2 * height), round(0.56 * height), scale)
         return np.asarray(image)
 
+    def _legend(self, canvas, legend, pad, lowest):
+        """Rows from the upper left down to `lowest`, above the time; the last one counts those that have no room."""
+        line = round(1.6 * self.size)
+        room = max(1, (lowest - pad) // line)
+        shown = legend if len(legend) <= room else legend[:room - 1]
+        for row, (name, color) in enumerate(shown):
+            y = pad + row * line
+            _chip(canvas, (pad, y, pad + self.size, y + self.size), color)
+            canvas.text((pad + line, y + self.size / 2), name, INK, self.small, anchor="lm")
+        if len(shown) < len(legend):
+            y = pad + len(shown) * line + self.size / 2
+            canvas.text((pad, y), f"and {len(legend) - len(shown)} more", FAINT_INK, self.small, anchor="lm")
+
     def bar_width(self, scale):
         """Pixels that a colour bar takes at the right of a picture."""
-        if not Image or not scale:
+        if not scale:
             return 0
         _, texts, title, unit = self._bar_texts(scale)
         widest = max(self.small.getlength(text) for text in texts + ["0"])
@@ -127,35 +107,6 @@ def contact_sheet(panels, columns, scale=None):
     length = round(min(0.6 * sheet.shape[0], 1.5 * height))
     captions.bar(image, sheet.shape[1] - gap, (sheet.shape[0] - length) // 2 + captions.size, length, scale)
     return np.asarray(image)
-
-
-class Video:
-    """An MP4 (H.264) that takes one picture after the other, through ffmpeg."""
-
-    def __init__(self, path, width, height, rate):
-        command = ["ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24",
-                   "-s", f"{width}x{height}", "-r", f"{rate:g}", "-i", "-",
-                   "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-crf", "17",
-                   "-preset", "medium", "-pix_fmt", "yuv420p", "-movflags", "+faststart",
-                   "-fflags", "+bitexact", str(path)]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
-
-    @staticmethod
-    def available():
-        return shutil.which("ffmpeg") is not None
-
-    def add(self, pixels):
-        try:
-            self.process.stdin.write(np.ascontiguousarray(pixels).tobytes())
-        except BrokenPipeError:
-            self.close()
-
-    def close(self):
-        """Finishes the file. Raises OSError with ffmpeg's message when it failed."""
-        _, message = self.process.communicate()
-        if self.process.returncode != 0:
-            lines = message.decode(errors="replace").strip().splitlines() or ["no message"]
-            raise OSError(f"ffmpeg failed: {lines[-1]}")
 
 
 def _font(size):

@@ -28,7 +28,8 @@ class Shape:
     groups: np.ndarray
     group_count: int
     color: np.ndarray  # sRGB, used where no values are given
-    texture: Texture | None = None  # instead of the colour
+    texture: Texture | None = None  # over the colour
+    casts_shadow: bool = True
 
 
 @dataclasses.dataclass
@@ -37,6 +38,7 @@ class Look:
     light: np.ndarray  # unit vector towards the key light
     up: np.ndarray
     body_size: float  # [m]
+    extent: geometry.Extent  # of the motion
     ground: Ground | None = None
     mesh_lines: bool = False
     color_map: np.ndarray = dataclasses.field(default_factory=lambda: colors.viridis(1024))  # sRGB
@@ -57,6 +59,7 @@ class _Surface:
         self.corners = self.points[self.faces]
         self.shares = np.concatenate([_corner_shares(s.faces, v) for s, v in zip(shapes, shares)])
         self.facing = geometry.face_normals(self.points, self.faces)
+        self.casting = np.repeat([s.casts_shadow for s in shapes], counts)
 
 
 def _corner_shares(faces, shares):
@@ -83,15 +86,14 @@ class Stage:
         surface = _Surface(shapes, points, shares)
         background = self.background
         if self.ground:
-            background = self.ground.shaded(GroundShadow(self.look.ground, surface.points, surface.faces))
+            background = self.ground.shaded(GroundShadow(self.look.ground, surface.points, surface.faces[surface.casting]))
         picture = background
         for ghost in ghosts:
             color, cover = self._bodies(shapes, _Surface(shapes, *ghost))
             picture = picture * (1 - GHOST_OPACITY * cover)[:, None] + GHOST_OPACITY * color
         color, cover = self._bodies(shapes, surface)
         picture = picture * (1 - cover)[:, None] + color
-        encoded = np.round(255 * colors.to_srgb(picture)).astype(np.uint8)
-        return encoded.reshape(self.height, self.width, 3)
+        return colors.to_bytes(picture).reshape(self.height, self.width, 3)
 
     def _bodies(self, shapes, surface):
         """Linear light [pixels, 3], already weighted by the covered share of each pixel [pixels]."""
@@ -151,7 +153,7 @@ def _shade(look, eye, shapes, surface, triangle, weights):
     view = geometry.normalised(eye - point)
     facing = np.einsum("si,si->s", normal, view)
     lit = normal @ look.light
-    open_sky = _ShadowMap(surface, look.light).light(point, normal, lit)
+    open_sky = _ShadowMap(surface, look).light(point, normal, lit)
     upward = 0.5 + 0.5 * (normal @ look.up)
     ambient = GROUND_LIGHT + (SKY_LIGHT - GROUND_LIGHT) * upward[:, None]
     if look.ground is not None:
@@ -168,7 +170,7 @@ def _shade(look, eye, shapes, surface, triangle, weights):
 
 
 def _base_color(color_map, shapes, surface, triangle, weights):
-    plain = colors.to_linear(np.stack([s.color for s in shapes]))[surface.body[triangle]]
+    base = colors.to_linear(np.stack([s.color for s in shapes]))[surface.body[triangle]]
     share = np.einsum("si,si->s", weights, surface.shares[triangle])
     last = len(color_map) - 1
     mapped = colors.to_linear(color_map)[np.clip(np.nan_to_num(share) * last + 0.5, 0, last).astype(int)]
@@ -176,24 +178,25 @@ def _base_color(color_map, shapes, surface, triangle, weights):
         if shape.texture is not None:
             of_body = np.flatnonzero(surface.body[triangle] == body)
             corners = shape.texture.coordinates[triangle[of_body] - surface.first_triangle[body]]
-            plain[of_body] = shape.texture.colors(np.einsum("si,sij->sj", weights[of_body], corners))
-    return np.where(np.isnan(share)[:, None], plain, mapped)
+            paint, opacity = shape.texture.colors(np.einsum("si,sij->sj", weights[of_body], corners))
+            base[of_body] += opacity * (paint - base[of_body])
+    return np.where(np.isnan(share)[:, None], base, mapped)
 
 
 class _ShadowMap:
     """Depths along the key light of the surfaces that face away from it: comparing with those
     leaves lit surfaces free of self-shadowing noise."""
 
-    def __init__(self, surface, light):
-        helper = np.eye(3)[np.argmin(np.abs(light))]
-        u = geometry.normalised(np.cross(helper, light))
-        self.axes = np.stack([u, np.cross(light, u), light])
+    def __init__(self, surface, look):
+        light = look.light
+        self.axes = np.concatenate([geometry.plane_axes(light), light[None]])
         local = surface.points @ self.axes.T
-        self.low = local.min(axis=0)
-        self.texel = max(np.ptp(local[:, :2], axis=0).max(), 1e-12) / (SHADOW_MAP - 16)
+        near = look.extent.near(surface.points) @ self.axes.T
+        self.low = near.min(axis=0)
+        self.texel = max(np.ptp(near[:, :2], axis=0).max(), 1e-12) / (SHADOW_MAP - 16)
         self.low[:2] -= 8 * self.texel
         corners = self._place(local)[surface.faces]
-        away = np.flatnonzero(surface.facing @ light < 0)
+        away = np.flatnonzero(surface.casting & (surface.facing @ light < 0))
         owner = visible_triangles(corners[away][..., :2], corners[away][..., 2], SHADOW_MAP, SHADOW_MAP)
         depth = np.full(SHADOW_MAP ** 2, -np.inf)
         hit = np.flatnonzero(owner >= 0)

@@ -2,29 +2,28 @@
 import dataclasses
 
 import numpy as np
+from PIL import Image
 
 from . import colors
-from .trajectory import InvalidInput
-
-try:
-    from PIL import Image
-except ImportError:
-    Image = None
+from .hdf5 import InvalidInput
 
 
 @dataclasses.dataclass
 class Texture:
-    """`coordinates` are those of the corners of the triangles [M, 3, 2], `image` is linear light [height, width, 3]."""
+    """`coordinates` are those of the corners of the triangles [M, 3, 2], `image` is linear light [height, width, 3] and
+    `opacity` 0..1 [height, width, 1]."""
     coordinates: np.ndarray
     image: np.ndarray
+    opacity: np.ndarray
 
     def colors(self, places):
-        """Linear light at texture coordinates [n, 2]; the image is repeated, its first row is at v = 1."""
+        """Linear light [n, 3] and opacity [n, 1] at texture coordinates [n, 2]; the image is repeated, its first row is
+        at v = 1."""
         height, width, _ = self.image.shape
         u, v = places.T % 1.0
         column = np.minimum((u * width).astype(int), width - 1)
         row = np.minimum(((1 - v) * height).astype(int), height - 1)
-        return self.image[row, column]
+        return self.image[row, column], self.opacity[row, column]
 
 
 def of_bodies(files, bodies):
@@ -36,7 +35,7 @@ def of_bodies(files, bodies):
     coordinates, vertices, places = _faces(mesh)
     pixels = _image(image)
     count = sum(len(face) - 2 for face in vertices)
-    found = [Texture(coordinates[_of_triangles(mesh, body, vertices, places)], pixels)
+    found = [Texture(coordinates[_of_triangles(mesh, body, vertices, places)], *pixels)
              if len(body.faces) == count else None for body in bodies]
     if not any(found):
         raise InvalidInput(f"{mesh}: no body has its {count} triangles")
@@ -44,14 +43,13 @@ def of_bodies(files, bodies):
 
 
 def _image(path):
-    """Linear light [height, width, 3]."""
-    if Image is None:
-        raise InvalidInput(f"{path}: reading images needs python3-pil")
+    """Linear light [height, width, 3] and opacity [height, width, 1]."""
     try:
         with Image.open(path) as file:
-            return colors.to_linear(np.asarray(file.convert("RGB")) / 255.0)
+            pixels = np.asarray(file.convert("RGBA")) / 255.0
     except OSError as error:
         raise InvalidInput(f"{path}: {error.strerror or 'not an image'}") from None
+    return colors.to_linear(pixels[..., :3]), pixels[..., 3:]
 
 
 def _faces(path):

@@ -1,12 +1,11 @@
-"""Reads the frames to be drawn from an HDF5 trajectory and checks what it reads."""
+"""Reads the frames to be drawn from an HDF5 trajectory (docs/trajectory-format.md) and checks what it reads."""
 import dataclasses
 
 import h5py
 import numpy as np
 
-
-class InvalidInput(Exception):
-    """The trajectory cannot be drawn; the message says what is wrong and where."""
+from . import hdf5, obstacles
+from .hdf5 import InvalidInput
 
 
 @dataclasses.dataclass
@@ -17,6 +16,10 @@ class Body:
     rest: np.ndarray  # [N, 3] [m]
     positions: np.ndarray  # [frames, N, 3] [m]
     tractions: np.ndarray | None  # [frames, N, 3] [Pa]
+    casts_shadow: bool = True
+
+    def at(self, frame):
+        return self.positions[frame]
 
 
 @dataclasses.dataclass
@@ -24,12 +27,16 @@ class Trajectory:
     times: np.ndarray  # [frames] [s]
     frame_indices: np.ndarray  # [frames] where each drawn frame sits in the file
     bodies: list
+    obstacles: list  # of meshes
+    planes: list
 
 
-def select_frames(times, count=None, every=None, rate=None):
+def select_frames(times, count=None, every=None, rate=None, at=None):
     """Indices of the frames to draw: `count` evenly spaced ones, every `every`-th, those nearest to
-    `rate` pictures per second of simulated time, or all of them."""
+    `rate` pictures per second of simulated time or to the times `at`, or all of them."""
     total = len(times)
+    if at is not None:
+        return np.unique([np.abs(times - t).argmin() for t in at])
     if count is not None:
         return np.unique(np.round(np.linspace(0, total - 1, min(count, total))).astype(int))
     if rate is not None:
@@ -44,15 +51,15 @@ def select_frames(times, count=None, every=None, rate=None):
 
 def load(path, select, with_tractions):
     """Reads the frames that select(times) names. Raises InvalidInput."""
-    with _open(path) as file:
-        times = _dataset(file, "/time", 1)
+    with hdf5.open_file(path) as file:
+        times = hdf5.dataset(file, "/time", 1)
         if "bodies" not in file or not isinstance(file["bodies"], h5py.Group):
             raise InvalidInput(f"{path}: no group /bodies; is this a trajectory?")
         names = [name for name, body in file["bodies"].items() if not _is_beside_render_mesh(body)]
         if not names:
             raise InvalidInput(f"{path}: /bodies is empty")
         # A run that is still going may have written one body's frame and not yet the next one's.
-        frames = min([times.shape[0]] + [_dataset(file, f"/bodies/{n}/positions", 3).shape[0] for n in names])
+        frames = min([times.shape[0]] + [hdf5.dataset(file, f"/bodies/{n}/positions", 3).shape[0] for n in names])
         if frames == 0:
             raise InvalidInput(f"{path}: the trajectory has no frame")
         seconds = np.asarray(times[:frames], dtype=float)
@@ -60,7 +67,7 @@ def load(path, select, with_tractions):
             raise InvalidInput(f"{path}: /time is not an ascending list of finite numbers")
         indices = np.asarray(select(seconds))
         bodies = [_load_body(file, name, indices, with_tractions) for name in names]
-    return Trajectory(seconds[indices], indices, bodies)
+        return Trajectory(seconds[indices], indices, bodies, *obstacles.load(file, indices))
 
 
 def _is_beside_render_mesh(body):
@@ -68,57 +75,23 @@ def _is_beside_render_mesh(body):
     return body.attrs.get("surface") in ("simulation", b"simulation")
 
 
-def _open(path):
-    try:
-        return h5py.File(path, "r")
-    except FileNotFoundError:
-        raise InvalidInput(f"{path}: no such file") from None
-    except OSError as first:
-        try:
-            return h5py.File(path, "r", libver="latest", swmr=True)  # a run is still writing it
-        except (OSError, ValueError):
-            reason = str(first).splitlines()[0]
-            raise InvalidInput(f"{path}: not a readable HDF5 file ({reason})") from None
-
-
-def _dataset(file, name, dimensions):
-    data = file.get(name)
-    if not isinstance(data, h5py.Dataset):
-        raise InvalidInput(f"{file.filename}: no dataset {name}")
-    if data.ndim != dimensions or data.dtype.kind not in "fiu":
-        raise InvalidInput(f"{file.filename}: {name} has type {data.dtype} and shape {data.shape}; "
-                           f"expected {dimensions} dimensions of numbers")
-    return data
-
-
 def _load_body(file, name, indices, with_tractions):
-    where = f"{file.filename}: /bodies/{name}"
-    positions = _dataset(file, f"/bodies/{name}/positions", 3)
-    faces = np.asarray(_dataset(file, f"/bodies/{name}/faces", 2)[()])
+    where = f"/bodies/{name}"
+    positions = hdf5.dataset(file, f"{where}/positions", 3)
     count = positions.shape[1]
-    if positions.shape[2] != 3 or faces.shape[1] != 3 or count == 0 or len(faces) == 0:
-        raise InvalidInput(f"{where}: positions {positions.shape} and faces {faces.shape}; "
-                           "expected [frames, N, 3] and [M, 3]")
-    faces = faces.astype(np.int64)
-    if faces.min() < 0 or faces.max() >= count:
-        raise InvalidInput(f"{where}/faces: an index lies outside 0..{count - 1}")
-    rest = np.asarray(positions[0], dtype=float)
-    drawn = _frames(positions, indices)
-    if not (np.all(np.isfinite(rest)) and np.all(np.isfinite(drawn))):
-        raise InvalidInput(f"{where}/positions: a number is not finite")
+    if positions.shape[2] != 3 or count == 0:
+        raise InvalidInput(f"{file.filename}: {where}/positions has shape {positions.shape}; expected [frames, N, 3]")
+    faces = hdf5.faces(file, f"{where}/faces", count)
+    rest, drawn = (hdf5.finite(file, f"{where}/positions", hdf5.frames(positions, k)) for k in ([0], indices))
     tractions = None
-    if with_tractions and isinstance(file.get(f"/bodies/{name}/tractions"), h5py.Dataset):
-        stored = _dataset(file, f"/bodies/{name}/tractions", 3)
+    if with_tractions and isinstance(file.get(f"{where}/tractions"), h5py.Dataset):
+        stored = hdf5.dataset(file, f"{where}/tractions", 3)
         if stored.shape[1:] != (count, 3) or stored.shape[0] <= indices.max():
-            raise InvalidInput(f"{where}/tractions: shape {stored.shape} does not match {positions.shape}")
-        tractions = _frames(stored, indices)
-        if not np.all(np.isfinite(tractions)):
-            raise InvalidInput(f"{where}/tractions: a number is not finite")
-    a, b, c = (rest[faces[:, k]] - rest.mean(axis=0) for k in range(3))
-    if np.einsum("ij,ij->", a, np.cross(b, c)) < 0:
-        faces = faces[:, ::-1].copy()
-    return Body(name, faces, rest, drawn, tractions)
+            raise InvalidInput(f"{file.filename}: {where}/tractions: shape {stored.shape} does not match {positions.shape}")
+        tractions = hdf5.finite(file, f"{where}/tractions", hdf5.frames(stored, indices))
+    return Body(name, _turned_outward(rest[0], faces), rest[0], drawn, tractions)
 
 
-def _frames(data, indices):
-    return np.stack([np.asarray(data[int(i)], dtype=float) for i in indices])
+def _turned_outward(points, faces):
+    a, b, c = (points[faces[:, k]] - points.mean(axis=0) for k in range(3))
+    return faces[:, ::-1].copy() if np.einsum("ij,ij->", a, np.cross(b, c)) < 0 else faces

@@ -1,6 +1,7 @@
 """scripts/render.py: pictures of a small trajectory, and the parts that they rest on."""
-import json
+import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -13,7 +14,7 @@ from PIL import Image
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 
-from rendering import camera, colors, geometry, obstacles, picture, raster, texture, trajectory  # noqa: E402
+from rendering import camera, colors, geometry, hdf5, picture, raster, texture, trajectory  # noqa: E402
 
 BOX_FACES = np.array([[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4],
                       [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]])
@@ -49,42 +50,62 @@ def hue_distance(pixel, color):
     return np.linalg.norm(direction(pixel) - direction(color))
 
 
+def add_obstacle(path, name, vertices, faces, translation, rotation):
+    """A mesh obstacle as docs/trajectory-format.md has it; one pose for each frame."""
+    with h5py.File(path, "a") as file:
+        group = file.create_group(f"obstacles/{name}")
+        group["vertices"], group["faces"] = np.asarray(vertices, dtype=float), faces
+        group["translation"], group["rotation"] = np.asarray(translation, dtype=float), np.asarray(rotation, dtype=float)
+
+
+def add_plane(path, name, point, normal):
+    with h5py.File(path, "a") as file:
+        file[f"obstacles/{name}/point"] = np.asarray(point, dtype=float)
+        file[f"obstacles/{name}/normal"] = np.asarray(normal, dtype=float)
+
+
 class Obstacles(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        (self.folder / "plate.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        self.path = pathlib.Path(folder.name) / "t.h5"
+        write_trajectory(self.path, {"a": [box(0, 1)] * 3})
 
-    def load(self, *obstacle_list, times=(0, 1, 2, 3)):
-        path = self.folder / "scene.json"
-        path.write_text(json.dumps({"obstacles": obstacle_list}))
-        return obstacles.load(path, np.array(times, dtype=float))
+    def load(self, every=1):
+        return trajectory.load(self.path, lambda times: trajectory.select_frames(times, every=every), False)
 
-    def test_meshes_move_and_turn_as_their_keyframes_say(self):
-        motion = [{"time": 1}, {"time": 3, "translate": [0, 0, 2], "about": [1, 0, 0],
-                                "rotate": {"axis": [0, 0, 2], "angle_deg": 180}}]
-        plate, = self.load({"name": "floor", "plane": {}},
-                           {"name": "plate", "mesh": "plate.obj", "position": [1, 0, 0], "motion": motion})
-        self.assertEqual(plate.faces.tolist(), [[0, 1, 2], [0, 2, 3]])
-        corner = plate.positions[:, 1]  # starts at (2, 0, 0), a unit from the axis at the end
-        np.testing.assert_allclose(corner[[0, 1]], [[2, 0, 0], [2, 0, 0]], atol=1e-12)
-        np.testing.assert_allclose(corner[2], [0.5, 1.5, 1], atol=1e-12)  # about (0.5, 0, 0), 90 degrees
-        np.testing.assert_allclose(corner[3], [0, 0, 2], atol=1e-12)
+    def test_meshes_are_where_their_poses_say_in_the_chosen_frames(self):
+        quarter = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+        add_obstacle(self.path, "plate", box(0, 2), BOX_FACES, [[0, 0, 0], [9, 9, 9], [0, 0, 5]], [np.eye(3), np.eye(3), quarter])
+        plate, = self.load(every=2).obstacles
+        np.testing.assert_array_equal(plate.faces, BOX_FACES)
+        np.testing.assert_array_equal(plate.at(0), box(0, 2))
+        np.testing.assert_array_equal(plate.at(1)[6], [-1, 1, 6])  # (1, 1, 1) turned about z and lifted
 
-    def test_obstacles_of_included_scenes_come_first_from_their_folders(self):
-        (self.folder / "studio").mkdir()
-        (self.folder / "studio/wall.obj").write_text("v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n")
-        (self.folder / "studio/studio.json").write_text(json.dumps({"obstacles": [{"name": "wall", "mesh": "wall.obj"}]}))
-        for include in ("studio/studio.json", ["studio/studio.json"]):
-            path = self.folder / "scene.json"
-            path.write_text(json.dumps({"include": include, "obstacles": [{"name": "plate", "mesh": "plate.obj"}]}))
-            self.assertEqual([body.name for body in obstacles.load(path, np.array([0.0]))], ["wall", "plate"])
+    def test_open_meshes_are_seen_from_both_sides(self):
+        add_obstacle(self.path, "sheet", box(0, 2), BOX_FACES[:2], np.zeros((3, 3)), [np.eye(3)] * 3)
+        np.testing.assert_array_equal(self.load().obstacles[0].faces, [*BOX_FACES[:2], *BOX_FACES[:2, ::-1]])
 
-    def test_what_is_no_scene_is_an_error(self):
-        for broken in ({"name": "x", "mesh": "none.obj"}, {"mesh": 3}):
-            with self.assertRaises(trajectory.InvalidInput):
-                self.load(broken)
+    def test_planes_have_a_normal_of_length_one(self):
+        add_plane(self.path, "floor", [1, 2, 3], [0, 4, 0])
+        floor, = self.load().planes
+        np.testing.assert_array_equal(floor.normal, [0, 1, 0])
+        self.assertEqual(floor.offset, 2)
+        patch = floor.patch(np.array([5.0, 7.0, 5.0]), 3.0, 3).at(2)
+        np.testing.assert_allclose([patch.min(axis=0), patch.max(axis=0)], [[2, 2, 2], [8, 2, 8]], atol=1e-12)
+
+    def test_poses_that_are_missing_are_an_error(self):
+        add_obstacle(self.path, "plate", box(0, 2), BOX_FACES, np.zeros((2, 3)), [np.eye(3)] * 3)
+        with self.assertRaisesRegex(hdf5.InvalidInput, "/obstacles/plate has no pose"):
+            self.load()
+
+    def test_long_edges_are_split_and_the_surface_stays(self):
+        points, faces = geometry.split_long_edges(box(0, 1), BOX_FACES, 0.4, 8)
+        corners = points[faces]
+        self.assertLess(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(), 0.4)
+        self.assertAlmostEqual(np.linalg.norm(geometry.face_normals(points, faces), axis=1).sum() / 2, 6)
+        self.assertTrue(geometry.is_closed(faces[:0]) and geometry.is_closed(BOX_FACES))
+        self.assertFalse(geometry.is_closed(BOX_FACES[1:]))
 
 
 class Surfaces(unittest.TestCase):
@@ -108,7 +129,8 @@ class Textures(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.mesh, self.image = (pathlib.Path(folder.name) / name for name in ("m.obj", "i.png"))
         self.mesh.write_text(self.OBJ)
-        picture.write_png(self.image, np.array([[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 255]]], np.uint8))
+        rgba = [[[255, 0, 0, 255], [0, 255, 0, 0]], [[0, 0, 255, 255], [255, 255, 255, 51]]]
+        picture.save(self.image, np.array(rgba, np.uint8))
 
     def body(self, faces):
         return trajectory.Body("b", np.array(faces), None, None, None)
@@ -124,20 +146,21 @@ class Textures(unittest.TestCase):
 
     def test_images_begin_at_the_upper_left_and_repeat(self):
         textured, = self.load([[2, 0, 1], [2, 3, 0], [4, 1, 0]])
-        seen = textured.colors(np.array([[0.2, 0.9], [0.7, 1.9], [-0.8, 0.1], [0.9, 0.1]]))
+        seen, opacity = textured.colors(np.array([[0.2, 0.9], [0.7, 1.9], [-0.8, 0.1], [0.9, 0.1]]))
         np.testing.assert_array_equal(seen, [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]])
+        np.testing.assert_array_equal(opacity, [[1], [0], [1], [0.2]])
 
     def test_what_does_not_fit_is_an_error(self):
         for faces in ([[0, 1, 2]], [[2, 0, 1], [2, 3, 0], [3, 1, 0]]):
-            with self.assertRaises(trajectory.InvalidInput):
+            with self.assertRaises(hdf5.InvalidInput):
                 self.load(faces)
         for text in ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "vt x\n"):
             self.mesh.write_text(text)
-            with self.assertRaises(trajectory.InvalidInput):
+            with self.assertRaises(hdf5.InvalidInput):
                 self.load([[0, 1, 2]])
         self.mesh.write_text(self.OBJ)
         self.image.write_bytes(b"no image")
-        with self.assertRaises(trajectory.InvalidInput):
+        with self.assertRaises(hdf5.InvalidInput):
             self.load([[0, 1, 2]])
 
 
@@ -148,9 +171,9 @@ class Pictures(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.file = self.folder / "trajectory.h5"
 
-    def render(self, *options, expect=0):
+    def render(self, *options, expect=0, path=None):
         done = subprocess.run([sys.executable, SCRIPTS / "render.py", self.file, *map(str, options)],
-                              capture_output=True, text=True)
+                              capture_output=True, text=True, env={**os.environ, **({"PATH": path} if path else {})})
         self.assertEqual(done.returncode, expect, done.stderr)
         return done
 
@@ -166,7 +189,7 @@ class Pictures(unittest.TestCase):
 
     def test_frames_have_the_size_asked_for_and_show_the_bodies(self):
         self.two_moving_boxes()
-        pictures = self.frames("--every", 2, "--view", "0,0", size="160x100")
+        pictures = self.frames("--every", 2, "--view", "0,0", "--floor", "none", size="160x100")
         self.assertEqual(len(pictures), 3)
         self.assertEqual([p.name for p in sorted((self.folder / "frames").glob("*"))],
                          ["frame_000000.png", "frame_000002.png", "frame_000004.png"])
@@ -207,9 +230,9 @@ class Pictures(unittest.TestCase):
 
     def test_the_ground_shows_a_shadow_and_hides_what_is_below(self):
         write_trajectory(self.file, {"box": box([0, 0.6, 0], 1.0)[None]})
-        plain, = self.frames("--color", "none")
-        above, = self.frames("--color", "none", "--obstacle-plane", "y=0")
-        below, = self.frames("--color", "none", "--obstacle-plane", "y=3", "--view", "30,60")
+        plain, = self.frames("--color", "none", "--floor", "none")
+        above, = self.frames("--color", "none", "--floor", "y=0")
+        below, = self.frames("--color", "none", "--floor", "y=3", "--view", "30,60")
 
         def body_share(picture):  # the clay is warm, all else is bluish
             return (picture[..., 0].astype(int) > picture[..., 2]).mean()
@@ -231,7 +254,7 @@ class Pictures(unittest.TestCase):
     def test_ghosts_show_where_a_body_was(self):
         start = box([0, 0, 0], 1.0)
         write_trajectory(self.file, {"box": np.stack([start + [x, 0, 0] for x in (0, 2, 4)])})
-        options = ("--color", "body", "--view", "0,0", "--no-text", "--size", "240x90")
+        options = ("--view", "0,0", "--no-text", "--size", "240x90", "--floor", "none")
         plain, ghosts = self.folder / "plain.png", self.folder / "ghosts.png"
         self.render("--still", plain, *options)
         self.render("--still", ghosts, *options, "--ghosts", 2)
@@ -250,7 +273,7 @@ class Pictures(unittest.TestCase):
         written = []
         for jobs in (1, 2):
             out = self.folder / f"jobs{jobs}"
-            self.render("-o", out, "--size", "64x48", "--obstacle-plane", "auto", "--jobs", jobs)
+            self.render("-o", out, "--size", "64x48", "--jobs", jobs)
             written.append([p.read_bytes() for p in sorted(out.glob("*.png"))])
         self.assertEqual(len(written[0]), 5)
         self.assertEqual(written[0], written[1])
@@ -261,8 +284,60 @@ class Pictures(unittest.TestCase):
         self.render("--sheet", sheet, "--columns", 2, "--sheet-frames", 3, "--size", "100x80", "--no-text")
         gap = 4
         self.assertEqual(pixels(sheet).shape, (2 * (80 + gap) + gap, 2 * (100 + gap) + gap, 3))
-        self.render("--sheet", sheet, "--columns", 2, "--sheet-frames", 3, "--size", "100x80")
+        self.render("--sheet", sheet, "--columns", 2, "--sheet-frames", 3, "--size", "100x80",
+                    "--color", "deformation")
         self.assertGreater(pixels(sheet).shape[1], 2 * (100 + gap) + gap)  # room for the colour bar
+
+    def test_the_floor_is_the_plane_that_faces_upward_and_walls_stand_behind(self):
+        write_trajectory(self.file, {"box": box([0, 2, 0], 1.0)[None]})
+        lowest, = self.frames("--view", "0,5")
+        add_plane(self.file, "floor", [0, 0, 0], [0, 1, 0])
+        floor, = self.frames("--view", "0,5")
+        self.assertFalse(np.array_equal(floor, lowest))
+        np.testing.assert_array_equal(self.frames("--view", "0,5", "--floor", "y=0")[0], floor)
+        add_plane(self.file, "wall", [0, 0, -1], [0, 0, 1])
+        wall, = self.frames("--view", "0,5")
+        self.assertGreater((wall != floor).any(axis=2).mean(), 0.3)
+        np.testing.assert_array_equal(self.frames("--view", "0,5", "--no-obstacles")[0], floor)
+
+    def test_obstacles_move_and_are_drawn_grey_however_large(self):
+        write_trajectory(self.file, {"box": box([0, 0.5, 0], 1.0)[None].repeat(2, axis=0)})
+        add_obstacle(self.file, "plate", box([0, -0.1, 0], [60, 0.2, 60]), BOX_FACES, [[0, 0, 0], [0, -0.4, 0]], [np.eye(3)] * 2)
+        near, far = self.frames("--floor", "none", "--view", "0,20")
+        self.assertGreater((near != far).any(axis=2).mean(), 0.1)
+        self.assertLess(np.ptp(near[80, 60].astype(int)), 40)  # grey, in front of the box
+
+    def test_videos_are_what_their_names_say(self):
+        self.two_moving_boxes()
+        film = self.folder / "film.gif"
+        self.render("--video", film, "--size", "160x96", "--fps", 20)
+        with Image.open(film) as gif:
+            self.assertEqual((gif.format, gif.n_frames, gif.size), ("GIF", 5, (160, 96)))
+            self.assertEqual((gif.info["duration"], gif.info["loop"]), (50, 0))
+            shown = []
+            for k in range(gif.n_frames):
+                gif.seek(k)
+                shown.append(np.asarray(gif.convert("RGB")).astype(int))
+        self.render("-o", self.folder / "frames", "--size", "160x96")
+        for gif_frame, png in zip(shown, sorted((self.folder / "frames").glob("*.png"))):
+            self.assertLess(np.abs(gif_frame - pixels(png)).mean(), 4)
+        if shutil.which("ffmpeg"):
+            film = self.folder / "film.mp4"
+            self.render("--mp4", film, "--size", "161x97")
+            self.assertEqual(film.read_bytes()[4:8], b"ftyp")
+        without = self.render("--video", film.with_suffix(".mp4"), expect=6, path="/nowhere")
+        self.assertIn("need ffmpeg", without.stderr)
+
+    def test_a_legend_leaves_room_for_the_time(self):
+        blank = np.full((200, 300, 3), 255, np.uint8)
+        legend = [(f"body {k}", colors.body_color(k)) for k in range(40)]
+        captions = picture.Captions(200)
+        with_both = captions.annotate(blank, "t = 0.00 s", legend=legend)
+        with_time = captions.annotate(blank, "t = 0.00 s")
+        changed = np.flatnonzero((with_both != with_time).any(axis=(1, 2)))
+        written = np.flatnonzero((with_time != blank).any(axis=(1, 2)))
+        self.assertGreater(changed.max(), 100)
+        self.assertLess(changed.max() + 4, written.min())
 
     def test_what_cannot_be_drawn_is_one_line_of_error(self):
         def fails(code, *options):
@@ -277,8 +352,9 @@ class Pictures(unittest.TestCase):
         self.two_moving_boxes()
         fails(2)
         fails(2, *out, "--size", "12")
+        self.assertIn(".mp4 or .gif", fails(2, "--video", self.folder / "film.avi"))
         fails(2, *out, "--frames", "0")
-        fails(2, *out, "--obstacle-plane", "w=1")
+        fails(2, *out, "--floor", "w=1")
         fails(2, *out, "--ghosts", "3")
         self.assertIn("tractions", fails(3, *out, "--color", "traction"))
         with h5py.File(self.file, "r+") as file:
@@ -289,6 +365,11 @@ class Pictures(unittest.TestCase):
             file["bodies/left/faces"][0, 0] = 8
         self.assertIn("outside 0..7", fails(3, *out))
         self.two_moving_boxes()
+        (self.folder / "PIL.py").write_text("raise ModuleNotFoundError('No module named PIL')\n")
+        os.environ["PYTHONPATH"] = str(self.folder)
+        self.addCleanup(os.environ.pop, "PYTHONPATH")
+        self.assertIn("python3-pil", fails(6, *out))
+        (self.folder / "PIL.py").unlink()
         blocked = self.folder / "blocked"
         blocked.write_text("")
         fails(6, "-o", blocked / "out")
@@ -355,8 +436,15 @@ class Geometry(unittest.TestCase):
         times = np.arange(11) * 0.1
         self.assertEqual(list(trajectory.select_frames(times, count=3)), [0, 5, 10])
         self.assertEqual(list(trajectory.select_frames(times, every=4)), [0, 4, 8])
+        self.assertEqual(list(trajectory.select_frames(times, at=[0, 0.31, 0.32, 9])), [0, 3, 10])
         self.assertEqual(list(trajectory.select_frames(times, rate=5.0)), [0, 2, 4, 6, 8, 10])
         self.assertEqual(list(trajectory.select_frames(times, rate=20.0))[:5:2], [0, 1, 2])
+
+    def test_bytes_are_those_of_the_srgb_curve(self):
+        linear = np.concatenate([np.linspace(-0.1, 1.1, 2001), np.linspace(0, 0.004, 500)])
+        exact = 255 * colors.to_srgb(linear)
+        self.assertLess(np.abs(colors.to_bytes(linear) - exact).max(), 0.53)
+        np.testing.assert_allclose(colors.to_linear(exact / 255), np.clip(linear, 0, 1), atol=1e-6)
 
     def test_ticks_are_round_and_carry_the_unit(self):
         scale = colors.Scale("deformation", "m", 0.0, 0.0123)

@@ -9,13 +9,14 @@ import unittest
 
 import h5py
 import numpy as np
+from PIL import Image
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 from common.machine import OtherLoad  # noqa: E402
 from common.markdown import with_sections  # noqa: E402
 from common.programs import Failed  # noqa: E402
-from paper import figures, measures, tables  # noqa: E402
+from paper import figures, fish, measures, tables  # noqa: E402
 from paper.catalogue import BODIES, FIGURES, PAPER, SCENES  # noqa: E402
 from paper.workspace import Workspace  # noqa: E402
 from refine_mesh import refined  # noqa: E402
@@ -87,6 +88,22 @@ class Catalogue(Folder):
         self.assertEqual([bodies(f"fig8-bunny-{f}")[0]["friction"] for f in (0.2, 0.4, 0.6)], [0.2, 0.4, 0.6])
         self.assertEqual([bodies(f"fig5-beam-{f}")[0]["frame"] for f in ("moving", "static")], ["moving", "static"])
         self.assertEqual((len(bodies("fig1-fish")), len(bodies("fig1-fish", True))), (25, 5))
+
+
+class Fish(Folder):
+    def test_paint_is_projected_from_the_side(self):
+        mesh, painted, image = (self.folder / name for name in ("fish.obj", "painted.obj", "fish.png"))
+        mesh.write_text("v 0 0 0\nv 2 1 0\nv 2 -1 0.5\nv 0 3 1\nf 1 2 3\nf 1 4 2\n")
+        fish.paint(mesh, painted, image)
+        lines = painted.read_text().splitlines()
+        self.assertEqual([line for line in lines if line.startswith("vt")],
+                         [f"vt {u:.6f} {v:.6f}" for u, v in ((0.001, 0.001), (0.999, 0.001), (0.999, 0.5), (0.001, 0.999))])
+        self.assertEqual(lines[-1], "f 1/1 4/4 2/2")
+        with Image.open(image) as picture:
+            self.assertEqual(picture.size, (fish.WIDTH, fish.WIDTH // 2))
+            opacity = np.asarray(picture)[..., 3]
+        self.assertEqual(opacity[fish.WIDTH // 4, fish.WIDTH // 2], 0)  # the flank has the colour of the body
+        self.assertGreater(opacity[-2, fish.WIDTH // 2], 200)  # the belly has not
 
 
 class Runs(Folder):

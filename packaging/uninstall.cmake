@@ -1,0 +1,26 @@
+# Removes what `cmake --install` has written, as the file MANIFEST lists it, and the folders of the project that are empty then.
+if(NOT EXISTS ${MANIFEST})
+  message(FATAL_ERROR "${MANIFEST} is missing: nothing has been installed from this build folder")
+endif()
+file(STRINGS ${MANIFEST} files)
+set(folders)
+foreach(file IN LISTS files)
+  if(EXISTS $ENV{DESTDIR}${file} OR IS_SYMLINK $ENV{DESTDIR}${file})
+    file(REMOVE $ENV{DESTDIR}${file})
+    message(STATUS "Removed $ENV{DESTDIR}${file}")
+  endif()
+  cmake_path(GET file PARENT_PATH folder)
+  while(folder MATCHES "/bem(/|$)")  # other folders belong to others, too
+    list(APPEND folders ${folder})
+    cmake_path(GET folder PARENT_PATH folder)
+  endwhile()
+endforeach()
+list(REMOVE_DUPLICATES folders)
+list(SORT folders ORDER DESCENDING)  # inner ones first
+foreach(folder IN LISTS folders)
+  file(REMOVE_RECURSE $ENV{DESTDIR}${folder}/__pycache__)  # Python's copies of scripts that have been run
+  file(GLOB left $ENV{DESTDIR}${folder}/*)
+  if(NOT left)
+    file(REMOVE_RECURSE $ENV{DESTDIR}${folder})
+  endif()
+endforeach()

@@ -1,0 +1,12 @@
+# Uninstalls TREE: no file is left, a stranger's stays.
+file(WRITE ${TREE}/share/bem/stranger "")
+execute_process(COMMAND ${CMAKE_COMMAND} -DMANIFEST=${TREE}.manifest -P ${SCRIPT} COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
+file(GLOB_RECURSE left LIST_DIRECTORIES false ${TREE}/*)
+if(NOT left STREQUAL "${TREE}/share/bem/stranger")
+  message(FATAL_ERROR "left or lost: ${left}")
+endif()
+foreach(folder include/bem share/doc/bem share/bem/scripts)
+  if(EXISTS ${TREE}/${folder})
+    message(FATAL_ERROR "the folder ${folder} is left")
+  endif()
+endforeach()
