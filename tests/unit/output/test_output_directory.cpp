@@ -79,7 +79,7 @@ TEST_CASE("earlier output is refused, whichever format it has") {
 TEST_CASE("replacing removes all that the writers write and nothing else") {
   const test::TemporaryFolder folder("output_replace");
   write_everything(folder.path());
-  CHECK(find_output(folder.path()).size() == 1 + 2 + 3 + 4 + 2);
+  CHECK(find_output(folder.path()).size() == 1 + 2 + 3 + 5 + 2);
   const std::vector<std::string> mine = {"notes.txt",
                                          "trajectory.h5.old",
                                          "x_000000.obj",
