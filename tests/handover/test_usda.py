@@ -2,8 +2,10 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
+import time
 import unittest
 
 import numpy as np
@@ -125,6 +127,23 @@ class Usda(SimulationCase):
         self.simulate("--resume", "--checkpoint-every", 6)
         for name, content in expected.items():
             self.assertEqual((self.out / name).read_bytes(), content, name)
+
+    def test_an_interrupted_run_has_its_frames(self):
+        self.scene["duration"] = 1000
+        self.scene_file.write_text(json.dumps(self.scene))
+        with subprocess.Popen([os.environ["BEMSIM"], self.scene_file, "-o", self.out, "--format", "usda,glb"], stderr=subprocess.PIPE, text=True) as run:
+            while not (self.out / "trajectory.h5").exists():
+                self.assertIsNone(run.poll())
+                time.sleep(0.05)
+            time.sleep(0.3)
+            run.send_signal(signal.SIGINT)
+            message = run.communicate(timeout=60)[1]
+        self.assertEqual(run.returncode, 130, message)
+        self.assertIn("frames", message)
+        self.assertTrue((self.out / "trajectory.glb").exists())
+        layer, _, _ = read(self.out / "trajectory.usda")
+        with self.trajectory() as file:
+            self.assertEqual(len(layer.meshes["two_words"]["points"]), len(file["time"]))
 
     def test_the_tool_makes_the_same_file(self):
         """Where there is no render mesh, whose faces the trajectory does not have."""
