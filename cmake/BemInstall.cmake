@@ -4,7 +4,9 @@ include(CMakePackageConfigHelpers)
 set(BEM_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/bem)
 
 install(TARGETS bem EXPORT bemTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-install(DIRECTORY libbem/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bem COMPONENT development FILES_MATCHING PATTERN "*.hpp")
+# One header is for the library alone: it includes JSON for Modern C++, which users of the library need not have.
+install(DIRECTORY libbem/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bem COMPONENT development FILES_MATCHING PATTERN "*.hpp"
+        PATTERN glb_container.hpp EXCLUDE)
 install(EXPORT bemTargets NAMESPACE bem:: DESTINATION ${BEM_CMAKE_DIR} COMPONENT development)
 
 configure_package_config_file(cmake/bemConfig.cmake.in ${PROJECT_BINARY_DIR}/bemConfig.cmake

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/types.hpp"
+#include "mesh/rigid_place.hpp"
 #include "output/trajectory_contents.hpp"
 
 #include <array>
@@ -8,12 +9,6 @@
 #include <vector>
 
 namespace bem {
-
-/// x -> translation + rotation * x.
-struct RigidPlace {
-  Vec3 translation = Vec3::Zero();  ///< [m]
-  Mat3 rotation = Mat3::Identity();
-};
 
 /// One body at one time.
 struct BodyFrame {

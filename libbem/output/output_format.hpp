@@ -26,6 +26,7 @@ struct OutputFormat {
   /// many.
   FileRecords (*read_records)(const std::string& directory, const TrajectoryContents& contents,
                               std::size_t frames);
+  bool from_trajectory = false;  ///< is it made of the trajectory of format hdf5 at the end?
 };
 
 /// All formats, in the order in which messages list them.
@@ -33,5 +34,8 @@ const std::vector<const OutputFormat*>& output_formats();
 std::vector<std::string> output_format_names();
 /// Null if there is none of this name.
 const OutputFormat* find_output_format(const std::string& name);
+/// The formats in an order in which their writers may be closed: those that are made of the
+/// trajectory come last, and hdf5 is among the others then, first if it was not there.
+std::vector<const OutputFormat*> with_trajectory(std::vector<const OutputFormat*> formats);
 
 }  // namespace bem

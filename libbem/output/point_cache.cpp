@@ -76,6 +76,11 @@ GrowingFile open_cache(const std::string& path, std::size_t vertices, std::size_
   return cache;
 }
 
+std::string made_folder(const std::string& path) {
+  create_folder(path);
+  return path;
+}
+
 GrowingFile create_cache(const std::string& path, std::size_t vertices) {
   publish(path, header(vertices));
   return GrowingFile(path);
@@ -86,9 +91,9 @@ GrowingFile create_cache(const std::string& path, std::size_t vertices) {
 PointCache::PointCache(const std::string& directory, const TrajectoryContents& contents,
                        std::size_t kept)
     : contents_((check_contents(contents), check_rest(contents.bodies), contents)),
-      folder_(directory + "/" + kPointCacheFolder),
+      folder_(made_folder(directory + "/" + kPointCacheFolder)),
+      notes_(folder_ + "/" + kPointCacheNotes, contents_, kept),
       frames_(kept) {
-  create_folder(folder_);
   records_ = read_records(directory, contents_, 0);
   for (const TrajectoryBody& body : contents_.bodies) {
     const std::string path = folder_ + "/" + body.name + kPointCacheExtension;
@@ -123,6 +128,7 @@ void PointCache::write(const Frame& frame) {
     files_[i].write(kSamplesAt, bytes_of(static_cast<std::int32_t>(frames_ + 1)));
     records_[2 * i].add(bytes);
   }
+  records_.back().add(notes_.add(frame));  // only then: what it tells of is there
   ++frames_;
 }
 
@@ -132,12 +138,13 @@ void PointCache::sync() {
     const std::string mesh = folder_ + "/" + contents_.bodies[i].name + kPointCacheMeshExtension;
     if (frames_ > 0) check_io(sync_file(mesh), mesh);
   }
+  notes_.sync();
   check_io(sync_folder(folder_), folder_);
 }
 
-/// Two for each body: its cache, and the mesh.
 /// Of meshes those whose cache is there; others are not ours.
 bool PointCache::is_output(const std::filesystem::path& path) {
+  if (path.filename() == kPointCacheNotes) return true;
   if (path.extension() == kPointCacheExtension) return path.has_stem();
   std::error_code ignored;
   std::filesystem::path cache = path;
@@ -149,6 +156,7 @@ bool PointCache::may_write(const std::filesystem::path& path) {
   return is_output(path) || path.extension() == kPointCacheMeshExtension;
 }
 
+/// Two for each body, its cache and the mesh; then the notes.
 FileRecords PointCache::read_records(const std::string& directory,
                                      const TrajectoryContents& contents, std::size_t frames) {
   FileRecords records;
@@ -161,10 +169,15 @@ FileRecords PointCache::read_records(const std::string& directory,
                 *(records.end() - 2));
     records.back().add(file_contents(directory + "/" + records.back().name));
   }
+  records.push_back({std::string(kPointCacheFolder) + "/" + kPointCacheNotes, 0, {}});
+  for (const std::string& line :
+       CacheNotes::read(directory + "/" + records.back().name, contents, frames))
+    records.back().add(line);
   return records;
 }
 
 void PointCache::close() {
+  notes_.close();
   for (GrowingFile& file : files_) file.close();
 }
 

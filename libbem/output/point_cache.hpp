@@ -1,5 +1,6 @@
 #pragma once
 
+#include "output/cache_notes.hpp"
 #include "output/frame_writer.hpp"
 #include "output/growing_file.hpp"
 
@@ -13,10 +14,12 @@ namespace bem {
 inline constexpr const char* kPointCacheFolder = "pc2";
 inline constexpr const char* kPointCacheExtension = ".pc2";
 inline constexpr const char* kPointCacheMeshExtension = ".obj";
+inline constexpr const char* kPointCacheNotes = "scene.jsonl";
 
 /// Writes OUT_DIR/pc2/NAME.pc2 for each body, a Point Cache 2 as Blender and Houdini read it, and
 /// OUT_DIR/pc2/NAME.obj, the mesh that it moves: the rest shape where the body's frame is in frame
-/// 0 (output/body_obj.hpp).
+/// 0 (output/body_obj.hpp). OUT_DIR/pc2/scene.jsonl has times and obstacles
+/// (output/cache_notes.hpp), for scripts/blender_import.py.
 ///
 ///   char[12] "POINTCACHE2\0", int32 version 1, int32 vertices, float32 first frame 0,
 ///   float32 sampling 1 (sample k is frame k), int32 samples; then by sample and vertex
@@ -47,6 +50,7 @@ class PointCache : public FrameWriter {
 
   TrajectoryContents contents_;
   std::string folder_;
+  CacheNotes notes_;
   std::vector<GrowingFile> files_;  ///< by body
   std::size_t frames_;              ///< written so far
 };

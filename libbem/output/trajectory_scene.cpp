@@ -3,12 +3,27 @@
 #include "base/error.hpp"
 #include "output/trajectory_layout.hpp"
 
+#include <charconv>
+
+#include <nlohmann/json.hpp>
+
 namespace bem {
 namespace {
 
 Vec3 vector_at(const TrajectoryFile& file, const std::string& path) {
   const std::vector<double> v = file.rows(path, {}, 0, 3);
   return Vec3(v[0], v[1], v[2]);
+}
+
+/// Of a quantity: a number, or a text that begins with one; 0 of anything else.
+double leading_number(const nlohmann::json& quantity) {
+  if (quantity.is_number()) return quantity.get<double>();
+  double number = 0;
+  if (quantity.is_string()) {
+    const auto& text = quantity.get_ref<const std::string&>();
+    std::from_chars(text.data(), text.data() + text.size(), number);
+  }
+  return number;
 }
 
 RecordedObstacle read_obstacle(const TrajectoryFile& file, const std::string& name) {
@@ -52,6 +67,15 @@ RecordedContacts read_contacts(const TrajectoryFile& file) {
   contacts.points = file.rows("/contacts/points", {3}, 0, rows);
   contacts.forces = file.rows("/contacts/forces", {3}, 0, rows);
   return contacts;
+}
+
+Vec3 up_of_scene(const std::string& text) {
+  const auto scene = nlohmann::json::parse(text, nullptr, false, true);
+  Vec3 gravity = Vec3::Zero();
+  if (scene.is_object() && scene.contains("gravity") && scene["gravity"].is_array() &&
+      scene["gravity"].size() == 3)
+    for (int i = 0; i < 3; ++i) gravity[i] = leading_number(scene["gravity"][i]);
+  return gravity.norm() > 0 ? Vec3(-gravity.normalized()) : Vec3(Vec3::UnitY());
 }
 
 }  // namespace bem

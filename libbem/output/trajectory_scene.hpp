@@ -33,4 +33,7 @@ struct RecordedContacts {
 /// The contacts of a trajectory with the field `contacts`. Throws Error with the file's code.
 RecordedContacts read_contacts(const TrajectoryFile& file);
 
+/// Unit vector against the gravity of a scene's text; the y axis if there is none.
+Vec3 up_of_scene(const std::string& text);
+
 }  // namespace bem

@@ -52,7 +52,7 @@ class Files(SimulationCase):
         dangling.symlink_to("new")
         for other in (new, dangling, self.folder / "x" / ".." / "new"):
             self.refused(self.scene_file, "-o", self.out, "--stats", new, "--log-file", other, parts=["two outputs"])
-        for name in ("trajectory.h5", "checkpoint.bin", "obj/a_000000.obj", "pc2/ball.obj", "vtp/trajectory.pvd", ""):
+        for name in ("trajectory.h5", "checkpoint.bin", "obj/a_000000.obj", "pc2/ball.obj", "vtp/trajectory.pvd", "trajectory.usda", ""):
             for option in ("--stats", "--log-file"):
                 self.refused(self.scene_file, "-o", self.out, option, self.out / name, parts=["a run writes"])
         self.simulate("--steps", 1, "--stats", self.out / "stats.json", "--log-file", "/dev/null")

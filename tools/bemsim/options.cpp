@@ -37,8 +37,8 @@ void add_options(CLI::App& app, Typed& t) {
   app.add_option("-o,--output", o.output, "folder for the trajectories")->type_name("OUT_DIR");
   app.add_flag("--force", o.force, "replace the output of an earlier run");
   app.add_option("--format", t.formats,
-                 "comma-separated list of hdf5, obj, vtp (ParaView) and pc2 (Blender, Houdini); "
-                 "default: the scene's, else hdf5")
+                 "comma-separated list of hdf5, obj, vtp (ParaView), pc2 (Blender, Houdini), usda "
+                 "(Universal Scene Description) and glb (glTF); default: the scene's, else hdf5")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LIST");

@@ -28,6 +28,7 @@ void apply_options(const Options& o, Plan& plan) {
     scene.output.formats = o.formats;
     scene.output.location = {"--format", 0, 0, ""};
   }
+  scene.output.formats = with_trajectory(scene.output.formats);
   if (o.steps) scene.duration = static_cast<double>(*o.steps) * scene.time_step;
   if (o.duration) scene.duration = *o.duration;
   if (scene.duration / scene.time_step > std::numeric_limits<int>::max())

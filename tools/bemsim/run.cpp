@@ -147,6 +147,7 @@ class Run {
 
   /// What came first is the answer: if the files cannot be completed either, that is a warning.
   void finish_early(const std::string& outcome) {
+    set_interruption_check({});  // the signal has been heard; a second one ends the process
     try {
       finish(outcome);
     } catch (const Error& e) {

@@ -1,13 +1,11 @@
 #include "recording.hpp"
 
+#include "output/trajectory_scene.hpp"
 #include "scene/location.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
-
-#include <nlohmann/json.hpp>
 
 namespace bem {
 namespace {
@@ -51,19 +49,8 @@ std::string label_of(std::string name) {
   return name;
 }
 
-/// Of a quantity: a number, or a text that begins with one; 0 of anything else.
-double leading_number(const nlohmann::json& quantity) {
-  if (quantity.is_number()) return quantity.get<double>();
-  double number = 0;
-  if (quantity.is_string()) {
-    const auto& text = quantity.get_ref<const std::string&>();
-    std::from_chars(text.data(), text.data() + text.size(), number);
-  }
-  return number;
-}
-
 std::string dataset(const ViewField& field) {
-  return "/" + (field.name == kSpeed ? std::string("velocities") : field.name);
+  return field.name == kSpeed ? "velocities" : field.name;
 }
 
 }  // namespace
@@ -84,15 +71,6 @@ std::vector<std::size_t> chosen_frames(const std::vector<double>& times, std::si
     last_place = place;
   }
   return frames;
-}
-
-Vec3 up_of_scene(const std::string& text) {
-  const auto scene = nlohmann::json::parse(text, nullptr, false, true);
-  Vec3 gravity = Vec3::Zero();
-  if (scene.is_object() && scene.contains("gravity") && scene["gravity"].is_array() &&
-      scene["gravity"].size() == 3)
-    for (int i = 0; i < 3; ++i) gravity[i] = leading_number(scene["gravity"][i]);
-  return gravity.norm() > 0 ? Vec3(-gravity.normalized()) : Vec3(Vec3::UnitY());
 }
 
 std::vector<double> lengths(const std::vector<double>& numbers, std::size_t components) {
@@ -156,6 +134,13 @@ std::vector<double> Recording::times() const {
   return out;
 }
 
+std::vector<std::string> Recording::datasets() const {
+  std::vector<std::string> names;
+  for (const ViewField& field : fields_)
+    if (field.stored) names.push_back(dataset(field));
+  return names;
+}
+
 Pose Recording::pose(std::size_t body, std::size_t frame) const {
   if (!file_.has(group(body) + "/frame/rotation")) return {};
   double translation[3], rotation[9];
@@ -172,7 +157,7 @@ std::vector<double> Recording::positions(std::size_t body, std::size_t frame) co
 }
 
 bool Recording::has_field(std::size_t body, const ViewField& field) const {
-  return !field.stored || file_.has(group(body) + dataset(field));
+  return !field.stored || file_.has(group(body) + "/" + dataset(field));
 }
 
 std::vector<double> Recording::values(std::size_t body, const ViewField& field,
@@ -181,7 +166,7 @@ std::vector<double> Recording::values(std::size_t body, const ViewField& field,
   const Hdf5Dims extents =
       field.components == 1 ? Hdf5Dims{count} : Hdf5Dims{count, field.components};
   std::vector<double> out(count * field.components);
-  file_.read(bodies_[body], dataset(field), extents, frames_[frame], out.data());
+  file_.read(bodies_[body], "/" + dataset(field), extents, frames_[frame], out.data());
   return lengths(out, field.components);
 }
 

@@ -43,7 +43,8 @@ class Recording {
   const std::vector<std::string>& bodies() const { return bodies_; }
   const std::vector<std::size_t>& frames() const { return frames_; }  ///< which ones of the file
   const std::vector<ViewField>& fields() const { return fields_; }
-  std::vector<double> times() const;  ///< [s]
+  std::vector<double> times() const;          ///< [s]
+  std::vector<std::string> datasets() const;  ///< of the stored ones among the fields
   /// Unit vector against gravity, or the y axis where the file does not tell.
   const Vec3& up() const { return up_; }
 
@@ -69,9 +70,6 @@ class Recording {
 /// nearest to `rate` per second if that is not 0. The first is among them.
 std::vector<std::size_t> chosen_frames(const std::vector<double>& times, std::size_t every,
                                        double rate);
-
-/// Unit vector against the gravity of a scene's text; the y axis if there is none.
-Vec3 up_of_scene(const std::string& text);
 
 /// Lengths of vectors.
 std::vector<double> lengths(const std::vector<double>& numbers, std::size_t components);

@@ -1,3 +1,4 @@
+#include "output/exported_file.hpp"
 #include "output/hdf5_trajectory.hpp"
 #include "output/obj_sequence.hpp"
 #include "output/output_directory.hpp"
@@ -18,7 +19,10 @@ void write_everything(const std::string& directory) {
   ObjSequence obj(directory, test::sample_bodies());
   VtpSequence vtp(directory, test::sample_bodies());
   PointCache pc2(directory, test::sample_bodies());
-  for (FrameWriter* writer : std::initializer_list<FrameWriter*>{&hdf5, &obj, &vtp, &pc2}) {
+  ExportedAs<kUsdaExport> usda(directory, test::sample_bodies());
+  ExportedAs<kGlbExport> glb(directory, test::sample_bodies());
+  for (FrameWriter* writer :
+       std::initializer_list<FrameWriter*>{&hdf5, &obj, &vtp, &pc2, &usda, &glb}) {
     writer->write(test::sample_frame(0));
     writer->close();
   }
@@ -75,7 +79,7 @@ TEST_CASE("earlier output is refused, whichever format it has") {
 TEST_CASE("replacing removes all that the writers write and nothing else") {
   const test::TemporaryFolder folder("output_replace");
   write_everything(folder.path());
-  CHECK(find_output(folder.path()).size() == 1 + 2 + 3 + 4);
+  CHECK(find_output(folder.path()).size() == 1 + 2 + 3 + 5 + 2);
   const std::vector<std::string> mine = {"notes.txt",
                                          "trajectory.h5.old",
                                          "x_000000.obj",
@@ -91,8 +95,9 @@ TEST_CASE("replacing removes all that the writers write and nothing else") {
   for (const std::string& name : mine) touch(folder / name);
   fs::create_directory(folder / "obj/folder_000000.obj");
   std::vector<std::string> left = {"checkpoint.bin"};
-  for (const char* name : {"obj/small_000003.obj", "vtp/small_000003.vtp", "vtp/trajectory.pvd",
-                           "pc2/small.obj", "pc2/other.pc2", "trajectory.h5", "checkpoint.bin"})
+  for (const char* name :
+       {"obj/small_000003.obj", "vtp/small_000003.vtp", "vtp/trajectory.pvd", "pc2/small.obj",
+        "pc2/other.pc2", "trajectory.usda", "trajectory.h5", "checkpoint.bin"})
     left.push_back(name + std::string(".partial-0123456789abcdef"));
   for (const std::string& name : left) touch(folder / name);
   prepare_output_directory(folder.path(), ExistingOutput::replace);
@@ -120,11 +125,11 @@ TEST_CASE("a folder that replacing empties goes too, other empty ones stay") {
 TEST_CASE("names that a run may write or remove are known, wherever they come from") {
   const test::TemporaryFolder folder("output_names");
   const std::string out = folder / "out";
-  for (const char* name :
-       {"trajectory.h5", "checkpoint.bin", "obj/a_000000.obj", "vtp/trajectory.pvd", "pc2/a.pc2",
-        "pc2/a.obj", "../out/trajectory.h5", "./obj/../trajectory.h5"})
+  for (const char* name : {"trajectory.h5", "trajectory.usda", "trajectory.glb", "checkpoint.bin",
+                           "obj/a_000000.obj", "vtp/trajectory.pvd", "pc2/a.pc2", "pc2/a.obj",
+                           "../out/trajectory.h5", "./obj/../trajectory.h5"})
     CHECK(is_output_name(out, out + "/" + name));
   for (const char* name :
-       {"notes.txt", "obj/a.obj", "a_000000.obj", "../trajectory.h5", "vtp/a.txt"})
+       {"notes.txt", "other.usda", "obj/a.obj", "a_000000.obj", "../trajectory.h5", "vtp/a.txt"})
     CHECK_FALSE(is_output_name(out, out + "/" + name));
 }

@@ -3,6 +3,9 @@
 #include "output_test.hpp"
 
 #include <cstring>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
 
 using namespace bem;
 using Catch::Matchers::Contains;
@@ -55,8 +58,9 @@ TEST_CASE("a point cache is complete after every frame") {
   }
   writer.close();
   check_cache(folder / "pc2/small.pc2", 0, 4);
-  CHECK(test::names_in(folder / "pc2") ==
-        std::vector<std::string>{"large one.obj", "large one.pc2", "small.obj", "small.pc2"});
+  CHECK(test::names_in(folder / "pc2") == std::vector<std::string>{"large one.obj", "large one.pc2",
+                                                                   "scene.jsonl", "small.obj",
+                                                                   "small.pc2"});
 }
 
 TEST_CASE("the mesh of a point cache is the rest shape as it is placed at the start") {
@@ -107,4 +111,23 @@ TEST_CASE("a point cache that goes on ends in the same bytes") {
 
 TEST_CASE("what a checkpoint counts on is compared with the files of a PointCache") {
   test::check_damage<PointCache>();
+}
+
+TEST_CASE("notes beside point caches have times and places of obstacles") {
+  const test::TemporaryFolder folder("pc2_notes");
+  PointCache writer(folder.path(), sample_contents());
+  for (std::size_t f = 0; f < 2; ++f) writer.write(sample_frame(f));
+  std::istringstream lines(test::read_file(folder / "pc2/scene.jsonl"));
+  std::vector<nlohmann::json> notes;
+  for (std::string line; std::getline(lines, line);) notes.push_back(nlohmann::json::parse(line));
+  REQUIRE(notes.size() == 3);
+  CHECK(notes[0]["program"] == "test 1.2");
+  CHECK(notes[0]["up"] == nlohmann::json({0.0, 1.0, 0.0}));
+  CHECK(notes[0]["bodies"] == nlohmann::json({"small", "large one"}));
+  CHECK(notes[0]["obstacles"][0]["normal"] == nlohmann::json({0.0, 1.0, 0.0}));
+  CHECK(notes[0]["obstacles"][1]["faces"] ==
+        nlohmann::json(sample_contents().obstacles[1].triangles));
+  CHECK(notes[2]["time"] == 0.5);
+  CHECK(notes[2]["places"] ==
+        nlohmann::json::array({nullptr, {0.0, 0.5, 7.0, 1.0, 0.0, 0.0, 0.0}}));
 }

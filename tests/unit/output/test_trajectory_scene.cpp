@@ -75,3 +75,12 @@ TEST_CASE("obstacles and contacts that cannot be are refused") {
   CHECK_THROWS_WITH(contacts([](SceneContents& c) { c.counts[0] = -1; }), Contains("negative"));
   CHECK_THROWS_WITH(contacts([](SceneContents& c) { c.rows = 2; }), Contains("fewer"));
 }
+
+TEST_CASE("up is against gravity") {
+  CHECK(up_of_scene(R"({"gravity": [0, 0, -9.81]})") == Vec3(Vec3::UnitZ()));
+  CHECK(up_of_scene(R"({"gravity": [0, 0, 0]})") == Vec3(Vec3::UnitY()));
+  CHECK(up_of_scene(R"({"gravity": [0, 0, "-981 cm/s^2"]})") == Vec3(Vec3::UnitZ()));
+  CHECK(up_of_scene(R"({"gravity": ["x", 0, []]})") == Vec3(Vec3::UnitY()));
+  CHECK(up_of_scene("") == Vec3(Vec3::UnitY()));
+  CHECK(up_of_scene("no JSON") == Vec3(Vec3::UnitY()));
+}

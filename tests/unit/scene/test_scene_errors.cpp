@@ -320,7 +320,8 @@ TEST_CASE("contact and output settings are checked") {
   REQUIRE(world_error("\"contact\": @true") ==
           "/contact: expected the contact settings (an object), found true");
   REQUIRE(world_error("\"output\": {\"formats\": [@\"hdf\"]}") ==
-          "/output/formats/0: expected one of the strings obj, hdf5, vtp, pc2, found \"hdf\"; "
+          "/output/formats/0: expected one of the strings obj, hdf5, vtp, pc2, usda, glb, found "
+          "\"hdf\"; "
           "did you mean \"hdf5\"?");
   REQUIRE(world_error("\"output\": {\"formats\": @[]}") ==
           "/output/formats: expected an array of formats with at least 1 element, found an "

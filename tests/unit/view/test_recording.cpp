@@ -18,15 +18,6 @@ TEST_CASE("frames are chosen by number and by rate", "[recording]") {
   CHECK(chosen_frames({}, 1, 0).empty());
 }
 
-TEST_CASE("up is against gravity", "[recording]") {
-  CHECK(up_of_scene(R"({"gravity": [0, 0, -9.81]})") == Vec3(Vec3::UnitZ()));
-  CHECK(up_of_scene(R"({"gravity": [0, 0, 0]})") == Vec3(Vec3::UnitY()));
-  CHECK(up_of_scene(R"({"gravity": [0, 0, "-981 cm/s^2"]})") == Vec3(Vec3::UnitZ()));
-  CHECK(up_of_scene(R"({"gravity": ["x", 0, []]})") == Vec3(Vec3::UnitY()));
-  CHECK(up_of_scene("") == Vec3(Vec3::UnitY()));
-  CHECK(up_of_scene("no JSON") == Vec3(Vec3::UnitY()));
-}
-
 TEST_CASE("the tops of colours are round and not below", "[recording]") {
   CHECK(round_above(0) == 0);
   CHECK(round_above(1) == 1);
