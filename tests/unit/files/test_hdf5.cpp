@@ -250,7 +250,7 @@ TEST_CASE("a user block is left to others") {
   CHECK_THROWS_AS(Hdf5File::create(folder / "b", odd), Error);
 }
 
-TEST_CASE("a file may be open twice, and either be closed first") {
+TEST_CASE("a file may be open twice and either be closed first") {
   const test::TemporaryFolder folder("hdf5_twice");
   const std::string path = folder / "a.h5";
   write_sample(path);
