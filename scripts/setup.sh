@@ -28,7 +28,7 @@ optional=(ffmpeg)
 add_npm() { command -v npm >/dev/null || packages+=(nodejs npm); }
 for argument in "$@"; do
   case "$argument" in
-    --test) packages+=(python3-vtk9); optional+=(chromium zsh); add_npm ;;
+    --test) packages+=(python3-vtk9 pybind11-dev python3-dev python3-pytest); optional+=(chromium zsh); add_npm ;;
     --bench) packages+=(libbenchmark-dev libopenblas-dev); optional+=(libsiconos-numerics-dev) ;;
     --lint) packages+=(clang-format clang-tidy) ;;
     --npm) add_npm ;;

@@ -91,6 +91,8 @@ class Body {
   const RigidFrame& frame() const { return frame_; }
   double dt() const { return dt_; }
   const std::vector<PrescribedLoad>& loads() const { return loads_; }
+  /// Of a load, in the order of the scene's: between two steps it may be given another size.
+  SurfaceLoad& load(std::size_t i) { return loads_.at(i).load; }
   const ElasticPart* elastic() const { return elastic_ ? &*elastic_ : nullptr; }  ///< rigid: null
 
   /// Displacements in body axes, 3 per node [m].

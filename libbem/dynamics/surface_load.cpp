@@ -1,5 +1,6 @@
 #include "dynamics/surface_load.hpp"
 
+#include "base/error.hpp"
 #include "dynamics/load_columns.hpp"
 #include "scene/motion.hpp"
 #include "scene/selection.hpp"
@@ -44,6 +45,15 @@ Eigen::VectorXd SurfaceLoad::values(double t, const Mat3& rotation) const {
   const double factor = profile_value(spec_.profile, t);
   if (follows_) return Eigen::VectorXd::Constant(1, factor);
   return factor * (rotation.transpose() * std::get<Vec3>(spec_.load));
+}
+
+void SurfaceLoad::set_traction(const Vec3& traction) {
+  if (follows_)
+    throw Error(ErrorCode::usage,
+                where(spec_.location) +
+                    ": the load turns with its body, so that only its factor can change");
+  spec_.load = traction;
+  set_factor(1);
 }
 
 void SurfaceLoad::add_nodal_tractions(const Eigen::VectorXd& values,

@@ -21,6 +21,10 @@ class SurfaceLoad {
 
   /// Input values at time t [s] for a body with rotation `rotation`.
   Eigen::VectorXd values(double t, const Mat3& rotation) const;
+  /// From now on in place of the profile: a factor on the load of the scene, or, of a load that
+  /// does not turn with the body, another traction [Pa, world axes].
+  void set_factor(double factor) { spec_.profile = {{0, factor}}; }
+  void set_traction(const Vec3& traction);
   /// Whether values() depends on the rotation.
   bool depends_on_rotation() const { return !follows_; }
 

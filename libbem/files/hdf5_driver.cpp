@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <new>
 
 #include <fcntl.h>
@@ -100,10 +101,11 @@ struct Hdf5Driver {
     return 0;
   }
 
+  /// Files that are open twice are two to HDF5: it would use the driver of the first one for both,
+  /// even after the first is closed and its Hdf5Io is gone.
   static int compare(const H5FD_t* a, const H5FD_t* b) {
-    const Hdf5Io &x = *of(a).io, &y = *of(b).io;
-    const auto first = std::pair(x.device_, x.inode_), second = std::pair(y.device_, y.inode_);
-    return first < second ? -1 : second < first ? 1 : 0;
+    const std::less<const H5FD_t*> before;
+    return before(a, b) ? -1 : before(b, a) ? 1 : 0;
   }
 
   static herr_t query(const H5FD_t*, unsigned long* flags) {

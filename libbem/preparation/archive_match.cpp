@@ -1,6 +1,9 @@
 #include "preparation/archive_match.hpp"
 
+#include "base/error.hpp"
 #include "mesh/describe.hpp"
+
+#include <filesystem>
 
 namespace bem {
 namespace {
@@ -69,6 +72,25 @@ std::string difference_from_plan(const Archive& archive, const BodyPlan& plan,
   text = other("time step", found.dt, wanted.dt);
   if (text.empty()) text = other("history", found.history_length, wanted.history_length);
   return text.empty() ? difference_of_loads(archive, plan.options) : text;
+}
+
+bool is_up_to_date(const std::string& path, const BodyPlan& plan, const std::string& program,
+                   SettingStyle style, bool replaces_archives) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) return false;
+  const auto keep = [&](const std::string& why) {
+    return Error(ErrorCode::usage, path + ": exists already and " + why + "; use " +
+                                       setting_name(style, "force") + " to overwrite it");
+  };
+  std::string difference;
+  try {
+    difference = difference_from_plan(Archive(path), plan, program);
+  } catch (const Error& e) {
+    if (e.code() != ErrorCode::archive) throw;
+    throw keep("is no complete archive");
+  }
+  if (!difference.empty() && !replaces_archives) throw keep(difference);
+  return difference.empty();
 }
 
 }  // namespace bem

@@ -21,4 +21,10 @@ std::string difference_from_material(const Archive& archive, const Material& mat
 std::string difference_from_plan(const Archive& archive, const BodyPlan& plan,
                                  const std::string& program);
 
+/// Whether the file is there and is what `program` would write for a plan. Throws ErrorCode::usage,
+/// with the option "force" as the cure, for another file, but for an archive that is to be
+/// replaced.
+bool is_up_to_date(const std::string& path, const BodyPlan& plan, const std::string& program,
+                   SettingStyle style, bool replaces_archives = false);
+
 }  // namespace bem

@@ -56,26 +56,6 @@ std::vector<Vec3> bound_velocities(const BoundMesh& mesh, const std::vector<Vec3
   return out;
 }
 
-/// The contacts of the last step where its end has brought them.
-std::vector<ContactFrame> contact_frames(const Simulation& simulation) {
-  std::vector<std::vector<Vec3>> nodes(simulation.bodies().size());
-  const auto place = [&](int body, const SurfacePoint& point) {
-    if (nodes[body].empty()) nodes[body] = BodyOutput(simulation.bodies()[body]).node_positions();
-    return point.place(nodes[body]);
-  };
-  std::vector<ContactFrame> out;
-  for (std::size_t c = 0; c < simulation.contacts().size(); ++c) {
-    const ContactPair& pair = simulation.contacts()[c];
-    const Vec3 point =
-        pair.body_a >= 0 ? place(pair.body_a, pair.contact.a) : place(pair.body_b, pair.contact.b);
-    out.push_back({point,
-                   pair.contact.normal,
-                   simulation.contact_forces()[c],
-                   {pair.in_scene_a, pair.in_scene_b}});
-  }
-  return out;
-}
-
 std::vector<double> body_series_of(const Body& body, int index,
                                    const std::vector<ContactFrame>& contacts) {
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
@@ -106,6 +86,25 @@ void check_finite(const std::string& name, const BodyFrame& frame, double time) 
 }
 
 }  // namespace
+
+std::vector<ContactFrame> contact_frames(const Simulation& simulation) {
+  std::vector<std::vector<Vec3>> nodes(simulation.bodies().size());
+  const auto place = [&](int body, const SurfacePoint& point) {
+    if (nodes[body].empty()) nodes[body] = BodyOutput(simulation.bodies()[body]).node_positions();
+    return point.place(nodes[body]);
+  };
+  std::vector<ContactFrame> out;
+  for (std::size_t c = 0; c < simulation.contacts().size(); ++c) {
+    const ContactPair& pair = simulation.contacts()[c];
+    const Vec3 point =
+        pair.body_a >= 0 ? place(pair.body_a, pair.contact.a) : place(pair.body_b, pair.contact.b);
+    out.push_back({point,
+                   pair.contact.normal,
+                   simulation.contact_forces()[c],
+                   {pair.in_scene_a, pair.in_scene_b}});
+  }
+  return out;
+}
 
 /// By field of the trajectory but velocities, which come first: a column for each node.
 std::vector<Eigen::MatrixXd> Recorder::node_fields(std::size_t index, const Body& body) const {
@@ -183,8 +182,10 @@ Frame Recorder::frame(const Simulation& simulation, std::size_t index) const {
     }
     if (writes_simulated_surface(shown)) add(surface_frame(body, fields));
   }
-  for (const auto& obstacle : obstacles_)
-    frame.obstacles.push_back(obstacle ? place_of(*obstacle, frame.time) : RigidPlace());
+  for (std::size_t o = 0; o < contents_.obstacles.size(); ++o) {
+    const auto* mesh = std::get_if<MeshObstacle>(&simulation.scene().obstacles[o].shape);
+    frame.obstacles.push_back(mesh ? place_of(*mesh, frame.time) : RigidPlace());
+  }
   if (contents_.contacts) frame.contacts = contacts;
   return frame;
 }

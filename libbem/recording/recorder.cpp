@@ -78,8 +78,6 @@ Recorder::Recorder(const Scene& scene, std::vector<ShownBody> bodies,
   for (const ShownObstacle& o : obstacles) {
     contents_.obstacles.push_back(shown_obstacle(o));
     contents_.obstacles.back().index = bodies_.size() + (contents_.obstacles.size() - 1);
-    const auto* mesh = std::get_if<MeshObstacle>(&o.spec->shape);
-    obstacles_.push_back(mesh ? std::optional<MeshObstacle>(*mesh) : std::nullopt);
   }
 }
 

@@ -7,7 +7,6 @@
 #include "simulation/simulation.hpp"
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +28,9 @@ struct ShownObstacle {
   const ObstacleSpec* spec;
   const ObstacleSurface* surface;
 };
+
+/// The contacts of the last step where its end has brought them.
+std::vector<ContactFrame> contact_frames(const Simulation& simulation);
 
 /// Makes the frames of a trajectory of a simulation: what the scene's "output" asks for.
 class Recorder {
@@ -55,7 +57,6 @@ class Recorder {
 
   const Scene& scene_;
   std::vector<ShownBody> bodies_;
-  std::vector<std::optional<MeshObstacle>> obstacles_;  ///< those that are meshes
   std::vector<std::unique_ptr<SurfaceStress>> stress_;  ///< by body, if it is written
   TrajectoryContents contents_;
 };

@@ -55,6 +55,18 @@ RigidMotion motion_at(const Motion& motion, double t) {
           linear(a.translate, b.translate, s)};
 }
 
+Motion motion_to(const Motion& before, double t, const Keyframe& target) {
+  const RigidMotion now = motion_at(before, t);
+  const Eigen::AngleAxisd turn(now.rotation);
+  const Vec3 shift = now.about - target.about;  // the same place by a rotation about the new centre
+  Keyframe start{
+      t, now.translate + shift - now.rotation * shift, {turn.axis(), turn.angle()}, target.about};
+  Keyframe end = target;
+  const double sign = turn.axis().dot(end.rotate.axis) < 0 ? -1 : 1;
+  end.rotate.angle += 2 * kPi * std::round((sign * turn.angle() - end.rotate.angle) / (2 * kPi));
+  return {start, end};
+}
+
 double turn_rate(const Keyframe& from, const Keyframe& to) {
   const AxisAngle &a = from.rotate, &b = to.rotate;
   const bool from_rest = a.angle == 0 || b.angle == 0;

@@ -24,6 +24,10 @@ struct RigidMotion {
 /// to 1.
 RigidMotion motion_at(const Motion& motion, double t);
 
+/// The motion that is at time `t` where `before` is, and comes to `target` at its later time by the
+/// shortest turn.
+Motion motion_to(const Motion& before, double t, const Keyframe& target);
+
 /// How fast a motion turns from one keyframe to the next [rad/s]: at most this, as described for
 /// motion_at.
 double turn_rate(const Keyframe& from, const Keyframe& to);

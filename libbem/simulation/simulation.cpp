@@ -1,6 +1,8 @@
 #include "simulation/simulation.hpp"
 
+#include "base/error.hpp"
 #include "dynamics/body_output.hpp"
+#include "scene/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -102,6 +104,36 @@ void Simulation::end_step() {
   for (Body& body : loaded_.bodies) body.end_step();
   momentum_.add_step(step, loaded_.bodies);
   ++steps_;
+}
+
+void Simulation::set_traction(std::size_t body, std::size_t load, const Vec3& traction) {
+  loaded_.bodies.at(body).load(load).set_traction(traction);
+}
+
+void Simulation::set_load_factor(std::size_t body, std::size_t load, double factor) {
+  loaded_.bodies.at(body).load(load).set_factor(factor);
+}
+
+Motion Simulation::next_motion(const Motion& motion, Keyframe pose) const {
+  pose.time = static_cast<double>(steps_ + 1) * scene_.time_step;
+  return motion_to(motion, time(), pose);
+}
+
+void Simulation::move_handle(std::size_t body, std::size_t handle, const Keyframe& pose) {
+  Motion& motion = scene_.bodies.at(body).handles.at(handle).motion;
+  motion = next_motion(motion, pose);
+}
+
+void Simulation::move_obstacle(std::size_t obstacle, const Keyframe& pose) {
+  auto* mesh = std::get_if<MeshObstacle>(&scene_.obstacles.at(obstacle).shape);
+  if (!mesh)
+    throw Error(ErrorCode::usage, "the obstacle " + in_quotes(scene_.obstacles[obstacle].name) +
+                                      " is a plane, which cannot move: give it a mesh");
+  mesh->motion = next_motion(mesh->motion, pose);
+}
+
+void Simulation::release_handle(std::size_t body, std::size_t handle) {
+  scene_.bodies.at(body).handles.at(handle).release_time = time();
 }
 
 void Simulation::visit_state(StateArchive& state) {

@@ -20,6 +20,22 @@ class Simulation {
   /// Saves the state between two steps, or restores it into a simulation of the same scene and
   /// archives (its duration may be another): it goes on as if it had never stopped, in every bit.
   void visit_state(StateArchive& state);
+
+  // What may be changed between two steps, from the next step on. Bodies, loads, handles and
+  // obstacles are counted as in the scene. None of it is part of the state that visit_state()
+  // saves.
+
+  /// A load as SurfaceLoad::set_traction() and set_factor() say.
+  void set_traction(std::size_t body, std::size_t load, const Vec3& traction);
+  void set_load_factor(std::size_t body, std::size_t load, double factor);
+  /// Where the motion of a handle or mesh obstacle is at the end of the next step, from then on:
+  /// the rotation and translation of its start, as keyframes have them (`pose.time` is not used).
+  /// During the step it goes there at constant speed.
+  void move_handle(std::size_t body, std::size_t handle, const Keyframe& pose);
+  void move_obstacle(std::size_t obstacle, const Keyframe& pose);
+  /// The vertices of a handle are free from the next step on.
+  void release_handle(std::size_t body, std::size_t handle);
+
   double time() const { return static_cast<double>(steps_) * scene_.time_step; }
   long steps() const { return steps_; }
   const std::vector<Body>& bodies() const { return loaded_.bodies; }
@@ -44,6 +60,7 @@ class Simulation {
   std::size_t archives() const { return loaded_.archives; }
 
  private:
+  Motion next_motion(const Motion& motion, Keyframe pose) const;
   void move_freely();
   void end_step();
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "archive/archive_reader.hpp"
+#include "common/archive_info.hpp"
 #include "common/measure.hpp"
 #include "model/time_estimate.hpp"
 #include "plan.hpp"
@@ -11,10 +12,7 @@
 
 namespace bem {
 
-/// What is in an archive, without its matrices and arrays.
-nlohmann::ordered_json info_json(const Archive& archive);
-
-/// The same for people.
+/// What is in an archive, for people; info_json() has the same.
 void print_info(std::ostream& out, const Archive& archive);
 
 /// What --dry-run prints.

@@ -1,6 +1,5 @@
 #include "run.hpp"
 
-#include "archive/archive_reader.hpp"
 #include "archive/archive_writer.hpp"
 #include "base/error.hpp"
 #include "files/pending_file.hpp"
@@ -98,25 +97,6 @@ int run_dry(const Plan& plan, Log& log) {
   return 0;
 }
 
-/// Whether the archive is there, made from the same inputs. Throws ErrorCode::usage for a file that
-/// is to be kept.
-bool is_up_to_date(const Options& o, const BodyPlan& body) {
-  if (o.force || !std::filesystem::exists(o.output)) return false;
-  const auto keep = [&](const std::string& why) {
-    throw Error(ErrorCode::usage,
-                o.output + ": exists already and " + why + "; use --force to overwrite it");
-  };
-  std::string difference;
-  try {
-    difference = difference_from_plan(Archive(o.output), body, version_text());
-  } catch (const Error& e) {
-    if (e.code() != ErrorCode::archive) throw;
-    keep("is no complete archive");
-  }
-  if (!difference.empty() && !o.if_changed) keep(difference);
-  return difference.empty();
-}
-
 }  // namespace
 
 int run_precompute(const Options& o, Log& log) {
@@ -128,7 +108,8 @@ int run_precompute(const Options& o, Log& log) {
   for (const std::string& w : warnings) log.warning(w);
   for (const std::string& note : plan.body.notes) log.info(note);
   if (o.dry_run) return run_dry(plan, log);
-  if (is_up_to_date(o, plan.body)) {
+  if (!o.force &&
+      is_up_to_date(o.output, plan.body, version_text(), SettingStyle::option, o.if_changed)) {
     log.info(o.output + ": up to date");
     return 0;
   }

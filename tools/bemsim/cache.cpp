@@ -10,10 +10,6 @@
 
 namespace bem {
 
-ArchiveCache cache_of(const Options& options) {
-  return ArchiveCache(options.cache.empty() ? default_cache_folder() : options.cache);
-}
-
 namespace {
 
 double bytes_of(const std::vector<ArchiveCache::Entry>& entries) {
@@ -26,29 +22,18 @@ std::string sum_text(const std::vector<ArchiveCache::Entry>& entries) {
   return count_text(entries.size(), "archive") + ", " + bytes_text(bytes_of(entries));
 }
 
-bool needs_cache(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const BodySpec& body) { return body.source.has_value(); });
-}
-
 }  // namespace
 
-PreparationOptions preparation_options(const Options& options, const Progress& progress, Log& log) {
-  PreparationOptions preparation;
-  preparation.program = version_text();
-  preparation.memory = static_cast<double>(physical_memory());
-  if (options.fps) preparation.frame_interval = 1 / *options.fps;
-  preparation.note = [&log](const std::string& text) { log.info(text); };
-  preparation.warn = [&log](const std::string& text) { log.warning(text); };
-  preparation.progress = progress;
-  return preparation;
+Listener listener_of(Log& log, Progress progress) {
+  return {[&log](const std::string& text) { log.info(text); },
+          [&log](const std::string& text) { log.warning(text); }, std::move(progress)};
 }
 
 std::size_t prepare_archives(const Options& options, Scene& scene, ArchiveSource& source,
                              const Progress& progress, Log& log) {
   const MissingArchives missing =
       options.action == Options::Action::check ? MissingArchives::list : MissingArchives::compute;
-  PreparationOptions preparation = preparation_options(options, progress, log);
+  PreparationOptions preparation = preparation_options(options, listener_of(log, progress));
   preparation.listed = [&](const std::vector<const BodyGeometry*>& geometries) {
     for (const std::string& warning : warnings_of_scene(scene)) log.warning(warning);
     place_bodies(scene, geometries, source);

@@ -1,19 +1,14 @@
 #pragma once
 
 #include "common/cli.hpp"
-#include "options.hpp"
-#include "preparation/archive_cache.hpp"
-#include "simulation/scene_preparation.hpp"
+#include "preparation.hpp"
 
 #include <iosfwd>
 
 namespace bem {
 
-/// That of the command line. Throws ErrorCode::usage and ErrorCode::resources.
-ArchiveCache cache_of(const Options& options);
-
-/// How the archives of a scene are prepared, and told of in the log.
-PreparationOptions preparation_options(const Options& options, const Progress& progress, Log& log);
+/// Tells the log, and whoever follows the progress.
+Listener listener_of(Log& log, Progress progress);
 
 /// Computes or finds the archives of bodies that the scene describes by mesh and material
 /// (prepare_scene), and says what it does. --check computes none: the result is how many it misses.

@@ -2,7 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "common/cli.hpp"
+#include "common/measure.hpp"
 #include "constraints/joint_plan.hpp"
 #include "mesh/describe.hpp"
 #include "render_meshes.hpp"

@@ -1,6 +1,6 @@
 #include "recorded_bodies.hpp"
 
-#include "common/cli.hpp"
+#include "common/version.hpp"
 
 namespace bem {
 

@@ -4,16 +4,13 @@
 #include "common/log.hpp"
 #include "common/measure.hpp"
 #include "common/progress_bar.hpp"
+#include "common/version.hpp"
 
 #include <functional>
-#include <string>
 
 // What the command-line tools share. The library prints nothing and never exits; this does.
 
 namespace bem {
-
-/// "bem 0.1.0".
-std::string version_text();
 
 /// Runs the body of a tool and returns the exit code of the process: the body's own, the code of a
 /// bem::Error, 6 when memory runs out, 128 + the signal's number for Interrupted, 1 for any other

@@ -10,10 +10,6 @@
 
 namespace bem {
 
-std::string version_text() {
-  return std::string("bem ") + BEM_VERSION;
-}
-
 namespace {
 
 int exit_code(ErrorCode code) {

@@ -250,6 +250,16 @@ TEST_CASE("a user block is left to others") {
   CHECK_THROWS_AS(Hdf5File::create(folder / "b", odd), Error);
 }
 
+TEST_CASE("a file may be open twice and either be closed first") {
+  const test::TemporaryFolder folder("hdf5_twice");
+  const std::string path = folder / "a.h5";
+  write_sample(path);
+  auto first = std::make_unique<Hdf5File>(Hdf5File::open(path, ErrorCode::archive));
+  const Hdf5File second = Hdf5File::open(path, ErrorCode::archive);
+  first.reset();
+  CHECK(second.read<double>("/numbers/double") == counting<double>(24));
+}
+
 TEST_CASE("a file that cannot be opened is an error of the caller's kind") {
   const test::TemporaryFolder folder("hdf5_open");
   const auto open = [&](const std::string& path) {

@@ -115,3 +115,21 @@ TEST_CASE("a profile is piecewise linear, constant outside and 1 if empty") {
   REQUIRE(bem::profile_value({{5, 3}}, 5) == 3);
   REQUIRE(bem::profile_value({}, 0.3) == 1);
 }
+
+TEST_CASE("a motion goes on to a target by the shortest turn") {
+  const Motion before = {key(0, kO, kZ, 0, kX), key(1, Vec3(1, 0, 2), kZ, 3, Vec3(2, 1, 0))};
+  for (const Vec3& axis : {kZ, Vec3(-kZ), Vec3(1, 2, 3)})
+    for (double angle : {3.5, 3.5 + 4 * kPi, -3.5, 0.0}) {
+      const Keyframe target = key(1.5, Vec3(0, 1, 0), axis, angle, kY);
+      const Motion motion = bem::motion_to(before, 0.8, target);
+      const Vec3 x(0.3, -0.2, 0.5);
+      const double start =
+          (motion_at(motion, 0.8).apply(x) - motion_at(before, 0.8).apply(x)).norm();
+      REQUIRE(start < 1e-14);
+      const bem::RigidMotion end = motion_at(motion, 2), wanted = motion_at({target}, 2);
+      REQUIRE((end.apply(x) - wanted.apply(x)).norm() < 1e-14);
+      const Mat3 half = motion_at(motion, 1.15).rotation;
+      const Eigen::AngleAxisd first(Mat3(half * motion_at(motion, 0.8).rotation.transpose()));
+      REQUIRE(first.angle() <= kPi / 2 + 1e-12);
+    }
+}
