@@ -53,19 +53,26 @@ std::vector<RecordedObstacle> read_obstacles(const TrajectoryFile& file) {
   return obstacles;
 }
 
-RecordedContacts read_contacts(const TrajectoryFile& file) {
-  RecordedContacts contacts;
-  if (!file.has(kContactCountsPath)) return contacts;
+std::vector<std::size_t> contact_ends(const TrajectoryFile& file) {
+  std::vector<std::size_t> ends;
+  if (!file.has(kContactCountsPath)) return ends;
   std::size_t rows = 0;
   const std::size_t frames = file.times().size();
   for (double count : file.rows(kContactCountsPath, {}, 0, frames, Hdf5Type::int32)) {
     if (count < 0)
       throw Error(file.error(), file.path() + ": " + kContactCountsPath + " has a negative number");
     rows += static_cast<std::size_t>(count);
-    contacts.ends.push_back(rows);
+    ends.push_back(rows);
   }
-  contacts.points = file.rows("/contacts/points", {3}, 0, rows);
-  contacts.forces = file.rows("/contacts/forces", {3}, 0, rows);
+  return ends;
+}
+
+RecordedContacts read_contacts(const TrajectoryFile& file) {
+  RecordedContacts contacts;
+  contacts.ends = contact_ends(file);
+  if (contacts.ends.empty()) return contacts;
+  contacts.points = file.rows("/contacts/points", {3}, 0, contacts.ends.back());
+  contacts.forces = file.rows("/contacts/forces", {3}, 0, contacts.ends.back());
   return contacts;
 }
 

@@ -23,12 +23,16 @@ struct RecordedObstacle {
 /// the file's code.
 std::vector<RecordedObstacle> read_obstacles(const TrajectoryFile& file);
 
-/// Contacts of all frames: rows `end[k-1]` to before `end[k]` belong to frame k.
+/// Contacts of all frames: rows `ends[k-1]` to before `ends[k]` belong to frame k.
 struct RecordedContacts {
-  std::vector<std::size_t> ends;  ///< [frames]; empty if the trajectory has no contacts
+  std::vector<std::size_t> ends;  ///< contact_ends()
   std::vector<double> points;     ///< [rows x 3, m]
   std::vector<double> forces;     ///< on the first surface [rows x 3, N]
 };
+
+/// Rows of contacts up to the end of every frame; empty if the trajectory has no contacts. Throws
+/// Error with the file's code.
+std::vector<std::size_t> contact_ends(const TrajectoryFile& file);
 
 /// The contacts of a trajectory with the field `contacts`. Throws Error with the file's code.
 RecordedContacts read_contacts(const TrajectoryFile& file);

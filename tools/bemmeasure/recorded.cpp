@@ -1,6 +1,6 @@
 #include "recorded.hpp"
 
-#include "output/trajectory_layout.hpp"
+#include "output/trajectory_scene.hpp"
 
 #include <map>
 #include <sstream>
@@ -57,16 +57,13 @@ std::string RecordedSeries::row(std::size_t body, std::size_t frame) const {
 }
 
 std::string contacts_csv(const TrajectoryFile& file) {
-  if (!file.has(kContactCountsPath))
+  const std::vector<std::size_t> ends = contact_ends(file);
+  if (ends.empty())
     throw Error(file.error(), file.path() +
                                   ": it has no contacts; write them with \"output\": {\"fields\": "
                                   "[\"contacts\"]}");
-  const std::vector<double> counts =
-      file.rows(kContactCountsPath, {}, 0, file.times().size(), Hdf5Type::int32);
-  std::size_t rows = 0;
-  for (double count : counts) rows += static_cast<std::size_t>(count);
   const auto read = [&](const char* path, std::size_t width, Hdf5Type type) {
-    return file.rows(path, {width}, 0, rows, type);
+    return file.rows(path, {width}, 0, ends.back(), type);
   };
   const std::vector<double> points = read("/contacts/points", 3, Hdf5Type::float64),
                             normals = read("/contacts/normals", 3, Hdf5Type::float64),
@@ -81,8 +78,8 @@ std::string contacts_csv(const TrajectoryFile& file) {
   text.precision(kDigits);
   text << "time,first,second,x,y,z,nx,ny,nz,fx,fy,fz\n";
   std::size_t row = 0;
-  for (std::size_t frame = 0; frame < counts.size(); ++frame)
-    for (int c = 0; c < static_cast<int>(counts[frame]); ++c, ++row) {
+  for (std::size_t frame = 0; frame < ends.size(); ++frame)
+    for (; row < ends[frame]; ++row) {
       text << file.times()[frame] << "," << name(pairs[2 * row]) << "," << name(pairs[2 * row + 1]);
       for (const auto* values : {&points, &normals, &forces})
         for (std::size_t axis = 0; axis < 3; ++axis) text << "," << (*values)[3 * row + axis];
