@@ -1,5 +1,6 @@
 #include "handover/animated_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bem {
@@ -16,6 +17,35 @@ Vec3 linear_colour(unsigned rgb) {
 }
 
 }  // namespace
+
+void AnimatedBody::set_triangles(const std::vector<Triangle>& triangles) {
+  corners.clear();
+  starts = {0};
+  for (const Triangle& t : triangles) {
+    corners.insert(corners.end(), t.begin(), t.end());
+    starts.push_back(corners.size());
+  }
+}
+
+std::vector<double> coordinates(const std::vector<Vec3>& points) {
+  std::vector<double> out;
+  for (const Vec3& p : points) out.insert(out.end(), p.data(), p.data() + 3);
+  return out;
+}
+
+VectorRange::VectorRange(const std::vector<double>& numbers)
+    : least(3, HUGE_VAL), most(3, -HUGE_VAL) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    least[i % 3] = std::min(least[i % 3], numbers[i]);
+    most[i % 3] = std::max(most[i % 3], numbers[i]);
+  }
+}
+
+double VectorRange::largest() const {
+  double out = 0;
+  for (int i = 0; i < 3; ++i) out = std::max({out, std::abs(least[i]), std::abs(most[i])});
+  return out;
+}
 
 double frame_rate(const std::vector<double>& times) {
   constexpr double kUsual = 24, kNear = 0.01;

@@ -30,6 +30,8 @@ struct AnimatedBody {
   std::vector<AnimatedField> fields = {};
 
   std::size_t face_count() const { return starts.size() - 1; }
+  /// Makes triangles its faces.
+  void set_triangles(const std::vector<Triangle>& triangles);
 };
 
 struct AnimatedObstacle {
@@ -52,6 +54,18 @@ struct AnimatedScene {
   std::function<RigidPlace(std::size_t body, std::size_t frame)> place;
   /// Values of a field, [vertices x components].
   std::function<std::vector<double>(std::size_t body, std::size_t field, std::size_t frame)> values;
+};
+
+/// Coordinates of points, one point after the other.
+std::vector<double> coordinates(const std::vector<Vec3>& points);
+
+/// Least and most of vectors [N x 3].
+struct VectorRange {
+  std::vector<double> least, most;
+
+  explicit VectorRange(const std::vector<double>& numbers);
+  /// Of the numbers by size.
+  double largest() const;
 };
 
 /// Takes the bytes of a file one piece after another.

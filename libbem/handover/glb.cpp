@@ -16,24 +16,6 @@ using Use = GlbContainer::Use;
 
 constexpr double kStill = 1e-6;  // of the size of a body: less than single precision holds
 
-/// Least and most of vectors [N x 3].
-struct VectorRange {
-  std::vector<double> least, most;
-
-  explicit VectorRange(const std::vector<double>& numbers)
-      : least(3, HUGE_VAL), most(3, -HUGE_VAL) {
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      least[i % 3] = std::min(least[i % 3], numbers[i]);
-      most[i % 3] = std::max(most[i % 3], numbers[i]);
-    }
-  }
-  double largest() const {
-    double out = 0;
-    for (int i = 0; i < 3; ++i) out = std::max({out, std::abs(least[i]), std::abs(most[i])});
-    return out;
-  }
-};
-
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
   return a;
@@ -229,17 +211,16 @@ class GlbWriter {
   }
 
   void add_obstacle(const AnimatedObstacle& obstacle) {
-    AnimatedBody shape{obstacle.name, obstacle.vertices.size(), {}, {0}};
-    for (const Triangle& t : obstacle.triangles) {
-      shape.corners.insert(shape.corners.end(), t.begin(), t.end());
-      shape.starts.push_back(shape.corners.size());
-    }
-    std::vector<double> points;
-    for (const Vec3& v : obstacle.vertices) points.insert(points.end(), v.data(), v.data() + 3);
+    AnimatedBody shape;
+    shape.name = obstacle.name;
+    shape.vertices = obstacle.vertices.size();
+    shape.set_triangles(obstacle.triangles);
     const std::size_t material = add_material(obstacle.name, obstacle_colour(), 0.9);
     const std::size_t mesh = glb_.add(
-        "meshes", {{"name", obstacle.name},
-                   {"primitives", Json::array({primitive(FirstShape(shape, points), material)})}});
+        "meshes",
+        {{"name", obstacle.name},
+         {"primitives",
+          Json::array({primitive(FirstShape(shape, coordinates(obstacle.vertices)), material)})}});
     NodePath path;
     for (const RigidPlace& place : obstacle.places) path.add(place);
     add_node(obstacle.name, mesh, path);

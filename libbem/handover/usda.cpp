@@ -11,19 +11,9 @@ namespace {
 
 /// Two opposite corners of the box around points [N x 3].
 std::vector<double> extent_of(const std::vector<double>& points) {
-  Vec3 least = Vec3::Constant(HUGE_VAL), most = -least;
-  for (std::size_t i = 0; i < points.size(); i += 3) {
-    const Eigen::Map<const Vec3> p(points.data() + i);
-    least = least.cwiseMin(p);
-    most = most.cwiseMax(p);
-  }
-  return {least[0], least[1], least[2], most[0], most[1], most[2]};
-}
-
-std::vector<double> numbers_of(const std::vector<Vec3>& vectors) {
-  std::vector<double> out;
-  for (const Vec3& v : vectors) out.insert(out.end(), v.data(), v.data() + 3);
-  return out;
+  VectorRange range(points);
+  range.least.insert(range.least.end(), range.most.begin(), range.most.end());
+  return range.least;
 }
 
 std::vector<int> face_sizes(const std::vector<std::size_t>& starts) {
@@ -151,11 +141,10 @@ class UsdaWriter {
   }
 
   void write_obstacle(const AnimatedObstacle& obstacle) {
-    std::vector<int> corners;
-    for (const Triangle& t : obstacle.triangles) corners.insert(corners.end(), t.begin(), t.end());
-    const std::vector<double> points = numbers_of(obstacle.vertices);
-    begin_mesh(obstacle.name, std::vector<int>(obstacle.triangles.size(), 3), corners,
-               obstacle_colour());
+    AnimatedBody shape;
+    shape.set_triangles(obstacle.triangles);
+    const std::vector<double> points = coordinates(obstacle.vertices);
+    begin_mesh(obstacle.name, face_sizes(shape.starts), shape.corners, obstacle_colour());
     attribute("float3[] extent", usda_array(extent_of(points), 3));
     attribute("point3f[] points", usda_array(points, 3));
     const auto& places = obstacle.places;

@@ -78,14 +78,6 @@ std::vector<AnimatedField> fields_of(const TrajectoryFile& file, const std::stri
   return out;
 }
 
-void set_triangles(const std::vector<Triangle>& triangles, AnimatedBody& body) {
-  body.starts = {0};
-  for (const Triangle& t : triangles) {
-    body.corners.insert(body.corners.end(), t.begin(), t.end());
-    body.starts.push_back(body.corners.size());
-  }
-}
-
 void set_faces(const RenderMesh& mesh, AnimatedBody& body) {
   body.corners = mesh.corners;
   body.starts = mesh.starts;
@@ -102,7 +94,7 @@ AnimatedBody body_of(const TrajectoryFile& file, const std::string& name,
   body.vertices = file.vertices(name);
   const auto mesh = choice.meshes.find(name);
   if (mesh == choice.meshes.end())
-    set_triangles(file.faces(name), body);
+    body.set_triangles(file.faces(name));
   else
     set_faces(*mesh->second, body);
   body.fields = fields_of(file, name, choice);
