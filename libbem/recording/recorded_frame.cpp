@@ -22,14 +22,6 @@ std::vector<double> numbers(const Eigen::MatrixXd& values) {
   return {values.data(), values.data() + values.size()};
 }
 
-/// The frame is that of the mesh coordinates: without displacements a vertex with mesh coordinates
-/// x is at translation + rotation * x.
-RigidPlace place_of(const BodySpec& spec, const Body& body) {
-  if (spec.is_stationary()) return {spec.position, spec.rotation.matrix()};
-  const Mat3& rotation = body.frame().rotation();
-  return {body.frame().translation() - rotation * body.model().geometry.mass.centre, rotation};
-}
-
 RigidPlace place_of(const MeshObstacle& obstacle, double time) {
   const RigidMotion motion = motion_at(obstacle.motion, time);
   return {motion.apply(obstacle.position), motion.rotation * obstacle.rotation.matrix()};
@@ -56,19 +48,6 @@ std::vector<Vec3> bound_velocities(const BoundMesh& mesh, const std::vector<Vec3
   return out;
 }
 
-std::vector<double> body_series_of(const Body& body, int index,
-                                   const std::vector<ContactFrame>& contacts) {
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-  for (const ContactFrame& c : contacts)
-    for (int side : {0, 1}) {
-      if (c.surface[side] != index) continue;
-      const Vec3 f = side == 0 ? c.force : Vec3(-c.force);
-      force += f;
-      torque += (c.point - body.frame().translation()).cross(f);
-    }
-  return series_values(body, force, torque);
-}
-
 /// What is on the disk is always finite.
 void check_finite(const std::string& name, const BodyFrame& frame, double time) {
   const auto vectors = [](const std::vector<Vec3>& all) {
@@ -87,6 +66,12 @@ void check_finite(const std::string& name, const BodyFrame& frame, double time) 
 
 }  // namespace
 
+RigidPlace place_of(const BodySpec& spec, const Body& body) {
+  if (spec.is_stationary()) return {spec.position, spec.rotation.matrix()};
+  const Mat3& rotation = body.frame().rotation();
+  return {body.frame().translation() - rotation * body.model().geometry.mass.centre, rotation};
+}
+
 std::vector<ContactFrame> contact_frames(const Simulation& simulation) {
   std::vector<std::vector<Vec3>> nodes(simulation.bodies().size());
   const auto place = [&](int body, const SurfacePoint& point) {
@@ -104,6 +89,19 @@ std::vector<ContactFrame> contact_frames(const Simulation& simulation) {
                    {pair.in_scene_a, pair.in_scene_b}});
   }
   return out;
+}
+
+std::vector<double> body_series_of(const Body& body, int index,
+                                   const std::vector<ContactFrame>& contacts) {
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+  for (const ContactFrame& c : contacts)
+    for (int side : {0, 1}) {
+      if (c.surface[side] != index) continue;
+      const Vec3 f = side == 0 ? c.force : Vec3(-c.force);
+      force += f;
+      torque += (c.point - body.frame().translation()).cross(f);
+    }
+  return series_values(body, force, torque);
 }
 
 /// By field of the trajectory but velocities, which come first: a column for each node.

@@ -32,6 +32,14 @@ struct ShownObstacle {
 /// The contacts of the last step where its end has brought them.
 std::vector<ContactFrame> contact_frames(const Simulation& simulation);
 
+/// The frame of a body: without displacements a vertex with mesh coordinates x is at translation +
+/// rotation * x.
+RigidPlace place_of(const BodySpec& spec, const Body& body);
+
+/// The values of body_series() of a body, `index` in the scene.
+std::vector<double> body_series_of(const Body& body, int index,
+                                   const std::vector<ContactFrame>& contacts);
+
 /// Makes the frames of a trajectory of a simulation: what the scene's "output" asks for.
 class Recorder {
  public:

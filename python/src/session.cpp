@@ -2,19 +2,12 @@
 
 #include "base/error.hpp"
 #include "recorded_bodies.hpp"
-#include "scene/location.hpp"
 
 namespace bem::python {
 namespace {
 
 ExistingOutput existing(const Options& options) {
   return options.force ? ExistingOutput::replace : ExistingOutput::refuse;
-}
-
-void warn_of_overlaps(const Simulation& simulation, const Listener& listener) {
-  for (const CollisionScene::Overlap& o : simulation.overlaps())
-    listener.warn(in_quotes(o.a) + " and " + in_quotes(o.b) + " overlap at the start, by " +
-                  std::to_string(o.depth) + " m; move them apart");
 }
 
 }  // namespace
@@ -34,7 +27,7 @@ Session::Session(const Options& options, Scene scene, const Listener& listener) 
   for (const std::string& warning : plan_->warnings) listener.warn(warning);
   check_memory(*plan_);
   simulation_ = std::make_unique<Simulation>(plan_->scene, *source_);
-  warn_of_overlaps(*simulation_, listener);
+  for (const std::string& warning : warnings_of_start(*simulation_)) listener.warn(warning);
   recorder_ = make_recorder(*plan_);
   if (!options.output.empty()) open_output(options);
 }
@@ -80,11 +73,6 @@ void Session::close_output() {
 void Session::close() {
   const std::lock_guard lock(mutex_);
   close_output();
-}
-
-Frame Session::frame() {
-  const std::lock_guard lock(mutex_);
-  return recorder_->frame(*simulation_, frames_);
 }
 
 }  // namespace bem::python

@@ -36,9 +36,6 @@ class Session {
     const std::lock_guard lock(mutex_);
     return use(*simulation_);
   }
-  const TrajectoryContents& contents() const { return recorder_->contents(); }
-  /// The present state, as trajectories have it.
-  Frame frame();
 
  private:
   void open_output(const Options& options);

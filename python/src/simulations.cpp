@@ -1,6 +1,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "dynamics/body_output.hpp"
+#include "recording/body_series.hpp"
 #include "scene_input.hpp"
 #include "session.hpp"
 #include "unlocked.hpp"
@@ -51,14 +52,6 @@ const BodyGeometry& geometry_of(const Session& session, std::size_t body) {
   return session.plan().bodies.at(body).archive->geometry();
 }
 
-/// A render mesh has the series of its body.
-const TrajectoryBody& recorded_body(const TrajectoryContents& contents, std::size_t body,
-                                    std::size_t& place) {
-  for (place = 0; place < contents.bodies.size(); ++place)
-    if (contents.bodies[place].index == body) return contents.bodies[place];
-  throw py::index_error("no such body");
-}
-
 py::object value_of(const FrameQuantity& quantity, const double*& numbers) {
   const double* first = numbers;
   numbers += quantity.components;
@@ -67,20 +60,21 @@ py::object value_of(const FrameQuantity& quantity, const double*& numbers) {
 }
 
 py::dict series_of(Session& session, std::size_t body) {
-  std::size_t place = 0;
-  const TrajectoryBody& recorded = recorded_body(session.contents(), body, place);
-  const Frame frame = session.frame();
+  const std::vector<double> values = session.with([&](const Simulation& simulation) {
+    return body_series_of(simulation.bodies().at(body), static_cast<int>(body),
+                          contact_frames(simulation));
+  });
   py::dict out;
-  const double* numbers = frame.bodies[place].series.data();
-  for (const FrameQuantity& quantity : recorded.series)
+  const double* numbers = values.data();
+  for (const FrameQuantity& quantity : body_series())
     out[py::str(quantity.name)] = value_of(quantity, numbers);
   return out;
 }
 
 py::tuple frame_of(Session& session, std::size_t body) {
-  std::size_t place = 0;
-  recorded_body(session.contents(), body, place);
-  const RigidPlace frame = session.frame().bodies[place].frame;
+  const RigidPlace frame = session.with([&](const Simulation& simulation) {
+    return place_of(spec_of(session, body), simulation.bodies().at(body));
+  });
   return py::make_tuple(array_of(frame.translation), array_of(frame.rotation));
 }
 

@@ -275,6 +275,14 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
   return plan;
 }
 
+std::vector<std::string> warnings_of_start(const Simulation& simulation) {
+  std::vector<std::string> warnings;
+  for (const CollisionScene::Overlap& o : simulation.overlaps())
+    warnings.push_back(in_quotes(o.a) + " and " + in_quotes(o.b) + " overlap at the start, by " +
+                       rounded_text(o.depth, 3) + " m; move them apart");
+  return warnings;
+}
+
 std::vector<std::string> warnings_of_scene(const Scene& scene) {
   if (scene.obstacles.empty() || scene.contact.enabled) return {};
   return {where(scene.obstacles[0].location) +

@@ -13,6 +13,8 @@
 
 namespace bem {
 
+class Simulation;
+
 /// What is known of a body before its matrices are loaded.
 struct PlannedBody {
   const BodySpec* spec;
@@ -60,6 +62,9 @@ void check_memory(const Plan& plan);
 
 /// What is to be said of a scene whatever its archives are.
 std::vector<std::string> warnings_of_scene(const Scene& scene);
+
+/// What is to be said of where a simulation starts.
+std::vector<std::string> warnings_of_start(const Simulation& simulation);
 
 /// Where a body of the scene is: "  placed at ..." with the boxes of its mesh.
 void print_place(std::ostream& out, const BodySpec& body, const BodyGeometry& geometry);

@@ -34,9 +34,7 @@ class Run {
     bar_.finish();
     log_.detail(bytes_text(static_cast<double>(simulation_->matrix_bytes())) +
                 " of matrices from " + count_text(simulation_->archives(), "archive"));
-    for (const CollisionScene::Overlap& o : simulation_->overlaps())
-      log_.warning(in_quotes(o.a) + " and " + in_quotes(o.b) + " overlap at the start, by " +
-                   rounded_text(o.depth, 3) + " m; move them apart");
+    for (const std::string& warning : warnings_of_start(*simulation_)) log_.warning(warning);
     if (earlier) restore(*earlier);
     prepare_output_directory(options.output, options.resume  ? ExistingOutput::keep
                                              : options.force ? ExistingOutput::replace
