@@ -48,6 +48,19 @@ void evaluate_polynomials(const T* coefficients, int functions, int padded_lanes
     }
 }
 
+/// The lanes of a function's polynomials that count.
+template <class T>
+int used_lanes_of(const T* coefficients, int lanes, std::size_t stride) {
+  std::vector<double> bounds(lanes, 0.0);
+  for (int degree = 0; degree < LaneTable<T>::kNodes; ++degree)
+    for (int lane = 0; lane < lanes; ++lane)
+      bounds[lane] += std::fabs(static_cast<double>(coefficients[degree * stride + lane]));
+  const double least =
+      std::numeric_limits<T>::epsilon() / 8 * *std::max_element(bounds.begin(), bounds.end());
+  while (lanes > 0 && bounds[lanes - 1] <= least) --lanes;
+  return lanes;
+}
+
 }  // namespace
 
 RadialWeights::RadialWeights(const Scheme& scheme, double kappa, int last_lag,
@@ -169,23 +182,6 @@ void RadialTable::build(const RadialWeights& weights) {
   });
   lanes_.find_used_lanes();
 }
-
-namespace {
-
-/// The lanes of a function's polynomials that count.
-template <class T>
-int used_lanes_of(const T* coefficients, int lanes, std::size_t stride) {
-  std::vector<double> bounds(lanes, 0.0);
-  for (int degree = 0; degree < LaneTable<T>::kNodes; ++degree)
-    for (int lane = 0; lane < lanes; ++lane)
-      bounds[lane] += std::fabs(static_cast<double>(coefficients[degree * stride + lane]));
-  const double least =
-      std::numeric_limits<T>::epsilon() / 8 * *std::max_element(bounds.begin(), bounds.end());
-  while (lanes > 0 && bounds[lanes - 1] <= least) --lanes;
-  return lanes;
-}
-
-}  // namespace
 
 template <class T>
 void LaneTable<T>::find_used_lanes() {

@@ -1,4 +1,5 @@
 #include "kernels/bdf1_weights.hpp"
+#include "kernels/hypersingular_functions.hpp"
 #include "kernels/radial_table.hpp"
 
 #include <catch2/catch.hpp>
@@ -86,4 +87,24 @@ TEST_CASE("the contour formula reproduces the closed form of BDF1") {
       for (int k = 0; k <= last; ++k)
         CHECK(std::abs(lanes[f * contour.layout().count() + k] - closed[k][f]) < 2e-13);
   }
+}
+
+TEST_CASE("lanes that do not count are nothing beside those that do") {
+  const RadialTable table(Scheme::parse("radau2"), 0.3, 30, 36, 1e-9, {}, hypersingular_family());
+  const LaneTable<float> lanes = table.single_precision();
+  std::vector<double> values(static_cast<std::size_t>(lanes.functions) * lanes.padded_lanes);
+  REQUIRE(lanes.used_lanes.size() == static_cast<std::size_t>(lanes.intervals));
+  for (int i = 0; i < lanes.intervals; ++i)
+    for (double place : {0.1, 0.5, 0.9}) {
+      lanes.evaluate(lanes.lam_at(i + place), values.data());
+      for (int f = 0; f < lanes.functions; ++f) {
+        const Eigen::Map<const Eigen::VectorXd> of_lanes(
+            &values[std::size_t(f) * lanes.padded_lanes], lanes.padded_lanes);
+        const int rest = lanes.padded_lanes - lanes.used_lanes[i];
+        if (rest > 0)
+          CHECK(of_lanes.tail(rest).cwiseAbs().maxCoeff() < 1e-7 * of_lanes.cwiseAbs().maxCoeff());
+      }
+    }
+  CHECK(lanes.used_lanes.front() < lanes.padded_lanes / 3);  // waves have come as far as two lags
+  CHECK(lanes.used_lanes.back() == lanes.padded_lanes);
 }
