@@ -31,6 +31,7 @@ void add_mirror_images(GalerkinRows<T>& rows) {
       T* to = rows.inertia_block(row, node) + e * stride;
       const T* from = rows.inertia_block(node, row) + mirrored_e * stride;
       for (std::size_t lane = 0; lane < stride; ++lane) to[lane] += from[lane];
+      rows.static_h_block(row, node)[e] += rows.static_h_block(node, row)[mirrored_e];
     };
     for (int node = row + 1; node < rows.nodes; ++node)
       for (int e = 0; e < 9; ++e) add(node, e, 3 * (e % 3) + e / 3);
@@ -40,9 +41,15 @@ void add_mirror_images(GalerkinRows<T>& rows) {
       add(row, e, below);
       std::copy_n(rows.inertia_block(row, row) + e * stride, stride,
                   rows.inertia_block(row, row) + below * stride);
+      rows.static_h_block(row, row)[below] = rows.static_h_block(row, row)[e];
     }
   });
-  rows.static_h += Eigen::MatrixXd(rows.static_h.transpose());
+}
+
+/// Whether all rows of a symmetric matrix are there.
+template <class T>
+bool is_mirrored(const GalerkinRows<T>& rows) {
+  return rows.form == MatrixForm::symmetric && rows.last - rows.first == rows.nodes;
 }
 
 }  // namespace
@@ -69,30 +76,37 @@ GalerkinAssembler::~GalerkinAssembler() = default;
 
 void GalerkinAssembler::assemble(int first, int last, MatrixForm form,
                                  GalerkinRows<double>& rows) const {
-  assemble_rows(first, last, form, table_.lanes(), rows);
+  rows.start(all_columns(first, last, form), form, table_.lanes().padded_lanes);
+  assemble_rows(table_.lanes(), is_mirrored(rows), rows);
 }
 
 void GalerkinAssembler::assemble(int first, int last, MatrixForm form,
                                  GalerkinRows<float>& rows) const {
-  assemble_rows(first, last, form, narrow_table_, rows);
+  rows.start(all_columns(first, last, form), form, narrow_table_.padded_lanes);
+  assemble_rows(narrow_table_, is_mirrored(rows), rows);
+}
+
+void GalerkinAssembler::assemble(std::vector<RowColumns> wanted, GalerkinRows<double>& rows) const {
+  rows.start(std::move(wanted), MatrixForm::symmetric, table_.lanes().padded_lanes);
+  assemble_rows(table_.lanes(), false, rows);
+}
+
+void GalerkinAssembler::assemble(std::vector<RowColumns> wanted, GalerkinRows<float>& rows) const {
+  rows.start(std::move(wanted), MatrixForm::symmetric, narrow_table_.padded_lanes);
+  assemble_rows(narrow_table_, false, rows);
+}
+
+std::vector<RowColumns> GalerkinAssembler::all_columns(int first, int last, MatrixForm form) const {
+  const int n = static_cast<int>(mesh_.vertices.size());
+  return {{first, last, ColumnPlaces(n, form == MatrixForm::symmetric ? first : 0),
+           ColumnPlaces(n, 0)}};
 }
 
 template <class T>
-void GalerkinAssembler::assemble_rows(int first, int last, MatrixForm form,
-                                      const LaneTable<T>& lanes, GalerkinRows<T>& rows) const {
-  const int n = static_cast<int>(mesh_.vertices.size()), count = last - first;
-  const bool symmetric = form == MatrixForm::symmetric, mirrored = symmetric && count == n;
-  const std::size_t stride = lanes.padded_lanes;
-  rows.first = first;
-  rows.last = last;
-  rows.nodes = n;
-  rows.padded_lanes = lanes.padded_lanes;
-  rows.form = form;
-  rows.first_column = symmetric ? first : 0;
-  set_zero(rows.inertia, std::size_t(count) * (n - rows.first_column) * 9 * stride);
-  set_zero(rows.adjoint, std::size_t(count) * n * 9 * stride);
-  rows.strain.assign(std::size_t(count) * 18 * stride, 0.0);
-  rows.static_h = rows.static_g = Eigen::MatrixXd::Zero(3 * count, 3 * n);
+void GalerkinAssembler::assemble_rows(const LaneTable<T>& lanes, bool mirrored,
+                                      GalerkinRows<T>& rows) const {
+  const int first = rows.first, last = rows.last, count = last - first;
+  const bool symmetric = rows.form == MatrixForm::symmetric;
 
   // the triangles that basis functions of wanted rows do not vanish on, patch by patch
   std::vector<SurfacePatch> patches;
@@ -105,7 +119,7 @@ void GalerkinAssembler::assemble_rows(int first, int last, MatrixForm form,
         reached.push_back(t);
     }
     if (reached.empty()) continue;
-    add_mass(reached, first, last, rows.static_g);
+    add_mass(reached, rows);
     patches.push_back(part_of_patch(mesh_, reconstruction_, patch, std::move(reached)));
     wanted.emplace_back(patches.back(), first, last);
   }
@@ -118,8 +132,12 @@ void GalerkinAssembler::assemble_rows(int first, int last, MatrixForm form,
     parallel_for(some, [&](std::size_t i) {
       const FlushDenormals flush;
       const SurfacePatch& y = patches_[begin + i];
-      blocks[i].clear(count, y, lanes.padded_lanes);
+      std::vector<char> reaching;  // by part of the rows
+      for (const RowColumns& part : rows.parts) reaching.push_back(part.reaches(y.nodes) ? 1 : 0);
+      const auto reaches = [&](int row) { return reaching[rows.part_number(row)] != 0; };
+      blocks[i].start(count, wanted, reaches, y, lanes.padded_lanes);
       for (std::size_t k = 0; k < patches.size(); ++k) {
+        if (!std::any_of(wanted[k].rows.begin(), wanted[k].rows.end(), reaches)) continue;
         check_interruption();
         const bool above = y.nodes.back() >= first + wanted[k].rows.front();
         const double h_part = mirrored ? part_of_pair(k, begin + i) : !symmetric || above ? 1 : 0;
@@ -138,38 +156,47 @@ void GalerkinAssembler::assemble_rows(int first, int last, MatrixForm form,
 template <class T>
 void GalerkinAssembler::add_block_row(const SurfacePatch& y, const PatchBlock<T>& block, int row,
                                       GalerkinRows<T>& rows) const {
+  const RowColumns& part = rows.part(row);
+  const int own = block.place(row);
+  if (own < 0 || !part.reaches(y.nodes)) return;
   const std::size_t stride = rows.padded_lanes, size = 9 * stride;
-  const auto add = [&](const AlignedVector<T>& from, const std::vector<int>& nodes,
-                       int first_column, AlignedVector<T>& to) {
-    add_rows(nodes, from.data() + row * nodes.size() * size, size,
-             to.data() + std::size_t(row) * (rows.nodes - first_column) * size, first_column);
+  const auto add = [](std::size_t count, const auto* from, auto* to) {
+    for (std::size_t i = 0; i < count; ++i) to[i] += from[i];
   };
-  add(block.inertia, y.nodes, rows.first_column, rows.inertia);
-  add(block.adjoint, y.hats, 0, rows.adjoint);
-  for (std::size_t e = 0; e < 18 * stride; ++e)
-    rows.strain[row * 18 * stride + e] += block.strain[row * 18 * stride + e];
-  const auto add_static = [&](const Entries& from, const std::vector<int>& nodes,
-                              Eigen::MatrixXd& to) {
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      for (int e = 0; e < 9; ++e)
-        to(3 * row + e / 3, 3 * nodes[k] + e % 3) += from[e](row, static_cast<Eigen::Index>(k));
+  const auto add_entries = [&](const std::vector<int>& nodes, const ColumnPlaces& places,
+                               const AlignedVector<T>& dynamic, const Entries& fixed, auto entry,
+                               auto static_entry) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (!places.holds(nodes[k])) continue;
+      add(size, dynamic.data() + (own * nodes.size() + k) * size, entry(nodes[k]));
+      double* to = static_entry(nodes[k]);
+      for (int e = 0; e < 9; ++e) to[e] += fixed[e](own, static_cast<Eigen::Index>(k));
+    }
   };
-  add_static(block.static_h, y.nodes, rows.static_h);
-  add_static(block.static_g, y.hats, rows.static_g);
+  add_entries(
+      y.nodes, part.h, block.inertia, block.static_h,
+      [&](int node) { return rows.inertia_block(row, node); },
+      [&](int node) { return rows.static_h_block(row, node); });
+  add_entries(
+      y.hats, part.g, block.adjoint, block.static_g,
+      [&](int node) { return rows.adjoint_block(row, node); },
+      [&](int node) { return rows.static_g_block(row, node); });
+  add(18 * stride, block.strain.data() + own * 18 * stride, &rows.strain[row * 18 * stride]);
 }
 
-void GalerkinAssembler::add_mass(const std::vector<int>& triangles, int first, int last,
-                                 Eigen::MatrixXd& g) const {
+template <class T>
+void GalerkinAssembler::add_mass(const std::vector<int>& triangles, GalerkinRows<T>& rows) const {
   for (int t : triangles) {
     const PairTractions mass = mass_matrix(pairs_.quadrature().area(t));
     for (std::size_t k = 0; k < bases_[t].vertices.size(); ++k) {
       const int node = bases_[t].vertices[k];
-      if (node < first || node >= last) continue;
+      if (node < rows.first || node >= rows.last) continue;
       for (int j = 0; j < 3; ++j) {
         double sum = 0;
         for (int a = 0; a < 6; ++a) sum += bases_[t].weights[k][a] * mass(3 * a, 3 * j);
-        g.block<3, 3>(3 * (node - first), 3 * mesh_.triangles[t][j]) +=
-            0.5 * sum * Mat3::Identity();
+        const int row = node - rows.first, column = mesh_.triangles[t][j];
+        if (!rows.part(row).g.holds(column)) continue;
+        for (int e : {0, 4, 8}) rows.static_g_block(row, column)[e] += 0.5 * sum;
       }
     }
   }

@@ -46,8 +46,11 @@ HWY_INLINE void EvaluateMidpointLanes(D d, std::size_t lane, const LaneTable<T>&
       hn::StoreU(j, d, adjoint + e * stride);
     }
 #pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i)
-      pressure[i] = hn::MulAdd(at(kOfDilation + i), f[kDilation], pressure[i]);
+    for (int i = 0; i < 3; ++i) {
+      const V here = hn::Mul(at(kOfDilation + i), f[kDilation]);
+      pressure[i] = hn::Add(pressure[i], here);
+      if (sums.pressure) hn::StoreU(here, d, sums.pressure + (3 * q + i) * stride + lane);
+    }
   }
   for (int i = 0; i < 3; ++i) hn::StoreU(pressure[i], d, sums.uniform + (27 + i) * stride + lane);
   for (int i = 0; i < 3; ++i) {

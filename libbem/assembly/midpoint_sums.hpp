@@ -26,9 +26,10 @@ template <class T>
 struct MidpointSums {
   static constexpr int kUniform = 30;
 
-  T* inertia;  ///< Z: [y][9 entries]; null: not wanted
-  T* adjoint;  ///< J times the area of y: [y][9 entries]
-  T* uniform;  ///< sums over y: J_il n_k at 9 i + 3 l + k, then pressure_kernel(): 3
+  T* inertia;             ///< Z: [y][9 entries]; null: not wanted
+  T* adjoint;             ///< J times the area of y: [y][9 entries]
+  T* uniform;             ///< sums over y: J_il n_k at 9 i + 3 l + k, then pressure_kernel(): 3
+  T* pressure = nullptr;  ///< pressure_kernel() alone: [y][3]; null: not wanted
 };
 
 /// Stores the kernels between a point x, whose normal times its area is m, and others.

@@ -3,6 +3,7 @@
 #include "algebra/blas.hpp"
 #include "assembly/galerkin_static.hpp"
 #include "assembly/lane_rows.hpp"
+#include "assembly/midpoint_strain.hpp"
 #include "assembly/static_sums.hpp"
 
 namespace bem {
@@ -76,34 +77,6 @@ void PatchBlock<T>::sum_by_shapes(const PairIntegrals& pairs, const SurfacePatch
     }
 }
 
-namespace {
-
-/// out[3 axes x 6][padded lane] += J of the tractions of uniform strain, which are linear in the
-/// normal, from MidpointSums::uniform.
-template <class T>
-void add_strain_of_midpoints(const PairIntegrals& pairs, const T* uniform, int padded_lanes,
-                             T* out) {
-  const Vector6 pressure = pairs.pressure_of_strain();
-  const std::size_t stride = padded_lanes;
-  Eigen::Matrix<double, 3, 6> tractions[3];  // of the axes as normals
-  for (int k = 0; k < 3; ++k) tractions[k] = pairs.shear_of_strain(Vec3::Unit(k));
-  for (int i = 0; i < 3; ++i)
-    for (int c = 0; c < 6; ++c) {
-      T* to = out + (6 * i + c) * stride;
-      const auto add = [&](double factor, int entry) {
-        if (factor == 0) return;
-        const T* from = uniform + entry * stride;
-        for (std::size_t lane = 0; lane < stride; ++lane)
-          to[lane] += static_cast<T>(factor) * from[lane];
-      };
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l) add(tractions[k](l, c), 9 * i + 3 * l + k);
-      add(pressure[c], 27 + i);
-    }
-}
-
-}  // namespace
-
 /// The dynamic sums of two distant patches by the midpoints of both.
 template <class T>
 void PatchBlock<T>::sum_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x,
@@ -159,9 +132,8 @@ void PatchBlock<T>::add_static_by_shapes(const PairIntegrals& pairs, const Surfa
         }
     }
   for (int e = 0; e < 9; ++e) {
-    if (with_h)
-      static_h[e](wanted.rows, Eigen::all) += h_part * (wanted.dense_shapes * (h[e] * of_y_));
-    static_g[e](wanted.rows, Eigen::all) += wanted.dense_shapes * g[e];
+    if (with_h) static_h[e](places_, Eigen::all) += h_part * (wanted.dense_shapes * (h[e] * of_y_));
+    static_g[e](places_, Eigen::all) += wanted.dense_shapes * g[e];
   }
 }
 
@@ -205,7 +177,7 @@ void PatchBlock<T>::add_static_by_midpoints(const PairIntegrals& pairs, const Su
   product(tractions, tractions_of_y_, by_y);
   for (int e = 0; e < 9; ++e) {
     product(wanted.dense_midpoints, by_y.middleRows(e * from, from), sum);
-    static_g[e](wanted.rows, Eigen::all) -= sum;
+    static_g[e](places_, Eigen::all) -= sum;
   }
 
   if (h_part == 0) return;
@@ -229,7 +201,7 @@ void PatchBlock<T>::add_static_by_midpoints(const PairIntegrals& pairs, const Su
     sum = 2 * (1 - kappa) * tensor[kTensorEntry[e]] - crossed[3 * r + c] -
           2 * (1 - 2 * kappa) * crossed[3 * c + r];
     if (r == c) sum += 2 * (1 - kappa) * along;
-    static_h[e](wanted.rows, Eigen::all) += scale * sum;
+    static_h[e](places_, Eigen::all) += scale * sum;
   }
 }
 
@@ -248,7 +220,7 @@ void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& 
     combine_rows(of_rows, by_own.data(), size, some_rows_.data());
     if (part != 1)
       for (T& value : some_rows_) value *= static_cast<T>(part);
-    add_rows(wanted.rows, some_rows_.data(), size, to.data());
+    add_rows(places_, some_rows_.data(), size, to.data());
   };
   const auto by_node = [&](const SparseRows& of_y, std::size_t own_y,
                            const AlignedVector<T>& from) -> const AlignedVector<T>& {
@@ -275,6 +247,8 @@ void PatchBlock<T>::add_dynamic(const PairIntegrals& pairs, const SurfacePatch& 
 template <class T>
 void PatchBlock<T>::add(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
                         const SurfacePatch& y, const LaneTable<T>& lanes, double h_part) {
+  places_.clear();
+  for (int row : wanted.rows) places_.push_back(place_[row]);
   const double apart = distance(x.box, y.box), edge = std::max(x.longest_edge, y.longest_edge);
   const auto far = [&](KernelPart part) {
     return pairs.quadrature().midpoints_suffice(apart, edge, part);

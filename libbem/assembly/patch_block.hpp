@@ -14,13 +14,12 @@ void set_zero(AlignedVector<T>& values, std::size_t size) {
   std::fill(values.begin(), values.end(), T(0));
 }
 
-/// to[rows[k] - first] += from[k], for `size` numbers each and rows from `first` on.
+/// to[rows[k]] += from[k], for `size` numbers each.
 template <class T>
-void add_rows(const std::vector<int>& rows, const T* from, std::size_t size, T* to, int first = 0) {
+void add_rows(const std::vector<int>& rows, const T* from, std::size_t size, T* to) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (rows[k] < first) continue;
     const T* a = from + k * size;
-    T* b = to + (rows[k] - first) * size;
+    T* b = to + rows[k] * size;
     for (std::size_t i = 0; i < size; ++i) b[i] += a[i];
   }
 }
@@ -38,22 +37,37 @@ struct PatchRows {
   PatchRows(const SurfacePatch& patch, int first, int last);
 };
 
-/// What one patch of y adds to wanted rows of the matrices (GalerkinRows), and working memory for
-/// it.
+/// What one patch of y adds to wanted rows of the matrices (GalerkinRows), those that patches x
+/// reach, and working memory for it.
 template <class T>
 class PatchBlock {
  public:
-  AlignedVector<T> inertia, adjoint;  ///< [row][node or hat of y][3x3 entry][padded lane]
-  AlignedVector<T> strain;            ///< [row][3 axes x 6][padded lane]
-  Entries static_h, static_g;         ///< rows x nodes or hats of y
+  AlignedVector<T> inertia, adjoint;  ///< [place][node or hat of y][3x3 entry][padded lane]
+  AlignedVector<T> strain;            ///< [place][3 axes x 6][padded lane]
+  Entries static_h, static_g;         ///< places x nodes or hats of y
 
-  /// Starts with `rows` rows of zeros.
-  void clear(int rows, const SurfacePatch& y, int padded_lanes);
+  /// Starts with zeros in those of `count` rows for which `reaches` holds and that a patch has.
+  template <class Reaches>
+  void start(int count, const std::vector<PatchRows>& wanted, const Reaches& reaches,
+             const SurfacePatch& y, int padded_lanes) {
+    place_.assign(count, -1);
+    int rows = 0;
+    std::vector<char> reached(count, 0);
+    for (const PatchRows& x : wanted)
+      if (std::any_of(x.rows.begin(), x.rows.end(), reaches))
+        for (int row : x.rows) reached[row] = 1;
+    for (int row = 0; row < count; ++row)
+      if (reached[row] != 0) place_[row] = rows++;
+    clear(rows, y, padded_lanes);
+  }
+  /// Where a row is, or -1.
+  int place(int row) const { return place_[row]; }
   /// Adds what the patch x has with y: to G all of it, to H `h_part` of it, which may be zero.
   void add(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
            const SurfacePatch& y, const LaneTable<T>& lanes, double h_part);
 
  private:
+  void clear(int rows, const SurfacePatch& y, int padded_lanes);
   void add_dynamic(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
                    const SurfacePatch& y, const LaneTable<T>& lanes, double h_part, bool far);
   void sum_by_shapes(const PairIntegrals& pairs, const SurfacePatch& x, const SurfacePatch& y,
@@ -65,6 +79,8 @@ class PatchBlock {
   void add_static_by_midpoints(const PairIntegrals& pairs, const SurfacePatch& x,
                                const PatchRows& wanted, const SurfacePatch& y, double h_part);
 
+  std::vector<int> place_;   ///< by row
+  std::vector<int> places_;  ///< of the rows of one patch of x
   /// Of one patch of x alone, by its rows.
   AlignedVector<T> some_rows_;
   /// The same by shapes or midpoints of x and y, and inertia by shapes of x and nodes of y.

@@ -1,6 +1,7 @@
 #include "compress/block_factors.hpp"
 
 #include "algebra/blas.hpp"
+#include "algebra/decompositions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -221,15 +222,9 @@ FloatMatrix transposed_each(const FloatMatrix& row, Eigen::Index count) {
   return out;
 }
 
-}  // namespace
-
-BlockFactors factor_block(const std::vector<MatrixView<float>>& matrices, double least) {
-  const Eigen::Index m = matrices[0].rows(), n = matrices[0].cols();
-  const auto count = static_cast<Eigen::Index>(matrices.size());
-  FloatMatrix stacked(m, n * count);
-  for (Eigen::Index k = 0; k < count; ++k) stacked.middleCols(k * n, n) = matrices[k];
+/// From the directions of the outputs of `count` matrices with n columns.
+BlockFactors with_inputs(Directions outputs, Eigen::Index count, Eigen::Index n, double least) {
   BlockFactors out;
-  Directions outputs = find_directions(stacked, count, least);
   out.output_basis = std::move(outputs.basis);
   out.squared_error = outputs.dropped;
   const Eigen::Index p = out.output_basis.cols();
@@ -241,7 +236,7 @@ BlockFactors factor_block(const std::vector<MatrixView<float>>& matrices, double
       out.coupling.emplace_back(inputs.projected.middleCols(k * p, p).transpose());
   } else {
     out.input_basis.resize(n, 0);
-    out.coupling.assign(matrices.size(), FloatMatrix(0, 0));
+    out.coupling.assign(count, FloatMatrix(0, 0));
   }
   out.output_weights.setZero(p);
   out.input_weights.setZero(out.input_basis.cols());
@@ -251,6 +246,31 @@ BlockFactors factor_block(const std::vector<MatrixView<float>>& matrices, double
   }
   out.output_weights = out.output_weights.cwiseSqrt();
   out.input_weights = out.input_weights.cwiseSqrt();
+  return out;
+}
+
+}  // namespace
+
+BlockFactors factor_block(const std::vector<MatrixView<float>>& matrices, double least) {
+  const Eigen::Index m = matrices[0].rows(), n = matrices[0].cols();
+  const auto count = static_cast<Eigen::Index>(matrices.size());
+  FloatMatrix stacked(m, n * count);
+  for (Eigen::Index k = 0; k < count; ++k) stacked.middleCols(k * n, n) = matrices[k];
+  return with_inputs(find_directions(stacked, count, least), count, n, least);
+}
+
+BlockFactors factor_block(const FactoredBlock& block, double least) {
+  const Eigen::MatrixXd outputs = block.outputs->cast<double>();
+  const Eigen::Index m = outputs.rows(), n = block.inputs.at(0)->cols();
+  const auto count = static_cast<Eigen::Index>(block.inputs.size());
+  const Eigen::MatrixXd basis =
+      outputs.cols() < m ? orthonormal_basis(outputs) : Eigen::MatrixXd::Identity(m, m);
+  const FloatMatrix turn = (basis.transpose() * outputs).cast<float>();
+  FloatMatrix stacked(turn.rows(), n * count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    stacked.middleCols(k * n, n) = product(turn, *block.inputs[k]);
+  BlockFactors out = with_inputs(principal(basis.cast<float>(), stacked, least), count, n, least);
+  out.squared_norm = stacked.cast<double>().squaredNorm();
   return out;
 }
 

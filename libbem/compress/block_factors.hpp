@@ -15,6 +15,7 @@ struct BlockFactors {
   Eigen::VectorXf input_weights;      ///< sigma of P
   std::vector<FloatMatrix> coupling;  ///< C_k, p x r
   double squared_error = 0;           ///< sum_k |X_k - Q C_k P^T|^2, estimated
+  double squared_norm = 0;            ///< sum_k |X_k|^2, of blocks in factors
 };
 
 /// Finds the bases from Gram matrices, of large blocks after a projection that products with random
@@ -22,5 +23,8 @@ struct BlockFactors {
 /// leaves out directions that carry less than about `least`. About m n K (min(m, 240) + p + r)
 /// multiply-adds.
 BlockFactors factor_block(const std::vector<MatrixView<float>>& matrices, double least);
+
+/// The same of a block that is in factors already.
+BlockFactors factor_block(const FactoredBlock& block, double least);
 
 }  // namespace bem

@@ -17,7 +17,7 @@ struct FamilySample {
   const std::vector<Slab>& slabs;  ///< of the whole matrices, in this form
   MatrixForm form;
   const Slab& slab;  ///< the one of them whose rows are here
-  const std::vector<MatrixView<float>>& rows;
+  const SlabParts<float>& rows;
   double error;  ///< Frobenius norm aimed at, of the whole family
   bool checked;  ///< errors are computed even where they can be extrapolated
 };

@@ -22,8 +22,8 @@ class LowRankCodec : public Codec {
   std::unique_ptr<FamilyBuilder<float>> sampled_builder(const FamilySample& sample) const override {
     const double quantum =
         LowRankBuilder::choose_quantum(sample.slab, sample.rows, sample.error, sample.checked);
-    return std::make_unique<LowRankBuilder>(sample.slabs, static_cast<int>(sample.rows.size()),
-                                            quantum, sample.form);
+    return std::make_unique<LowRankBuilder>(
+        sample.slabs, static_cast<int>(sample.rows.matrices.size()), quantum, sample.form);
   }
   double expected_table_bytes(const std::vector<Vec3>& nodes, double families,
                               double matrices) const override {

@@ -1,5 +1,7 @@
 #include "model/galerkin_slabs.hpp"
 
+#include "base/denormals.hpp"
+#include "base/interruption.hpp"
 #include "base/parallel.hpp"
 #include "base/symmetric_matrix.hpp"
 #include "model/rigid_projection.hpp"
@@ -62,52 +64,271 @@ int GalerkinSlabs<T>::rows_in_memory() const {
                              precision_);
 }
 
+/// Columns that are too close to a slab for factors are computed in full, and what other columns
+/// their blocks have is multiplied out.
+template <class T>
+typename GalerkinSlabs<T>::PartedSlab GalerkinSlabs<T>::part(const Slab& slab) const {
+  constexpr int kGroup = 16;  // columns that are near or far together
+  const int n = static_cast<int>(this->model_.nodes());
+  std::vector<char> near(n, 0), stored(n, 0);
+  for (int begin = 0; begin < n; begin += kGroup) {
+    const int end = std::min(n, begin + kGroup);
+    const bool holds = (end <= slab.row_begin || begin >= slab.row_end) &&
+                       far_field_->holds({slab.row_begin, slab.row_end}, {begin, end});
+    if (!holds) std::fill(near.begin() + begin, near.begin() + end, 1);
+  }
+  stored = near;
+  const auto is_stored = [&](const NodeBlock& b) {
+    return std::any_of(stored.begin() + b.column_begin, stored.begin() + b.column_end,
+                       [](char c) { return c != 0; });
+  };
+  std::vector<char> entire(slab.blocks.size(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
+      const NodeBlock& block = slab.blocks[b];
+      if (entire[b] != 0 || (block.far && !is_stored(block))) continue;
+      entire[b] = 1;
+      changed = true;
+      std::fill(stored.begin() + block.column_begin, stored.begin() + block.column_end, 1);
+    }
+  }
+  PartedSlab out{slab.row_begin, slab.row_end, {}, {}};
+  for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
+    const NodeBlock& block = slab.blocks[b];
+    if (entire[b] == 0) {
+      out.distant.push_back(block);
+      continue;
+    }
+    NodeBlock run = block;
+    for (int begin = block.column_begin; begin < block.column_end; begin = run.column_end) {
+      run.column_begin = begin;
+      run.column_end = begin + 1;
+      while (run.column_end < block.column_end && near[run.column_end] == near[begin])
+        ++run.column_end;
+      if (near[begin] == 0) out.expanded.push_back(run);
+    }
+  }
+  return out;
+}
+
+template <class T>
+RowColumns GalerkinSlabs<T>::near_columns(const PartedSlab& slab) const {
+  std::vector<char> near(this->model_.nodes(), 1);
+  for (const auto* blocks : {&slab.distant, &slab.expanded})
+    for (const NodeBlock& b : *blocks)
+      std::fill(near.begin() + b.column_begin, near.begin() + b.column_end, 0);
+  return {slab.first, slab.last, ColumnPlaces(near, slab.first), ColumnPlaces(near, 0)};
+}
+
+template <class T>
+RowColumns GalerkinSlabs<T>::stored_columns(const PartedSlab& slab) const {
+  std::vector<char> stored(this->model_.nodes(), 1);
+  for (const NodeBlock& b : slab.distant)
+    std::fill(stored.begin() + b.column_begin, stored.begin() + b.column_end, 0);
+  return {slab.first, slab.last, ColumnPlaces(stored, slab.first), ColumnPlaces(stored, 0)};
+}
+
+template <class T>
+void GalerkinSlabs<T>::use_factors(const std::vector<Slab>& partition) {
+  constexpr double kWorthIt = 0.3;  // of the entries
+  if (form_ != MatrixForm::symmetric || !is_inertial() || !this->has_tractions()) return;
+  far_field_ = std::make_unique<FarField>(assembler_.mesh(), assembler_.reconstruction(),
+                                          assembler_.pairs(), combination_, assembler_.layout());
+  double entries = 0;
+  for (const Slab& slab : partition) {
+    parted_.push_back(part(slab));
+    for (const auto* blocks : {&parted_.back().distant, &parted_.back().expanded})
+      for (const NodeBlock& b : *blocks) entries += static_cast<double>(b.rows()) * b.columns();
+  }
+  const double nodes = static_cast<double>(this->model_.nodes());
+  if (entries >= kWorthIt * nodes * nodes) return;
+  parted_.clear();
+  far_field_.reset();
+}
+
+/// What is known of the slab with these rows; null if it has no factors.
+template <class T>
+const typename GalerkinSlabs<T>::PartedSlab* GalerkinSlabs<T>::parted(int first, int last) const {
+  for (const PartedSlab& slab : parted_)
+    if (slab.first == first && slab.last == last) return &slab;
+  return nullptr;
+}
+
 template <class T>
 template <class S>
 void GalerkinSlabs<T>::load_rows(int first, int last, GalerkinRows<S>& rows) const {
   if (first >= rows.first && last <= rows.last) return;
+  if (!parted_.empty()) {
+    constexpr double kMostBytes = 2e9;
+    std::vector<RowColumns> wanted;
+    double bytes = 0;
+    for (const PartedSlab& slab : parted_) {
+      if (slab.last <= first) continue;
+      RowColumns columns = near_columns(slab);
+      bytes += 9.0 * columns.rows() * (columns.h.count + columns.g.count) *
+               (assembler_.layout().count() * sizeof(S) + sizeof(double));
+      if (slab.first >= last && bytes > kMostBytes) break;
+      wanted.push_back(std::move(columns));
+    }
+    assembler_.assemble(std::move(wanted), rows);
+    return;
+  }
   const int n = static_cast<int>(this->model_.nodes());
   assembler_.assemble(first, std::min(n, std::max(last, first + rows_in_memory())), form_, rows);
 }
 
 template <class T>
 void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
-  this->prepare(first, last, slab);
+  const PartedSlab* const parts = parted(first, last);
+  if (parts) {
+    RowColumns columns = stored_columns(*parts);
+    this->prepare(first, last, std::move(columns.h), std::move(columns.g), slab);
+  } else {
+    this->prepare(first, last, slab);
+  }
   if (is_inertial()) slab.stiffness.resize(3 * (last - first), slab.initial_h.at(0).cols());
+  const bool with_forces = known_[first] == 0;
   with_rows(first, last, [&](const auto& rows) {
     parallel_for(rows.nodes, [&](std::size_t j) {
       distribute_h(rows, static_cast<int>(j), slab);
       distribute_g(rows, static_cast<int>(j), slab);
     });
-    if (known_[first] != 0) return;
-    if (is_inertial()) add_traction_moments(slab);
+    if (!with_forces) return;
     const int end = form_ == MatrixForm::symmetric ? rows.nodes : last;
     parallel_for(end - first, [&](std::size_t i) {
       add_body_forces(rows, first, last, first + static_cast<int>(i));
     });
     std::fill(known_.begin() + first, known_.begin() + last, 1);
   });
+  if (parts) assemble_factors(*parts, with_forces, slab);
+  if (with_forces && is_inertial()) add_traction_moments(slab);
 }
 
-/// The columns of node j; of symmetric matrices down to the diagonal, with the mirror image of what
-/// is in the slab.
+/// What there is to do for the distant and the expanded blocks of a slab.
+template <class T>
+std::vector<FarTask> GalerkinSlabs<T>::tasks_of(const PartedSlab& parted) const {
+  std::vector<FarTask> tasks;
+  for (const auto* blocks : {&parted.distant, &parted.expanded})
+    for (const NodeBlock& b : *blocks)
+      tasks.push_back({{b.row_begin, b.row_end},
+                       {b.column_begin, b.column_end},
+                       b.column_begin >= parted.last,
+                       &this->loaded_nodes(),
+                       {}});
+  // uniform strain acts on patches that the near columns do not reach, each once on every row
+  const RowColumns near = near_columns(parted);
+  for (const SurfacePatch& patch : assembler_.patches()) {
+    if (near.reaches(patch.nodes)) continue;
+    const int node = patch.hats.front();
+    for (FarTask& task : tasks)
+      if (node >= task.columns.begin && node < task.columns.end) task.strained.push_back(&patch);
+  }
+  return tasks;
+}
+
+/// The distant and the expanded blocks of a slab, and what they add to body forces.
+template <class T>
+void GalerkinSlabs<T>::assemble_factors(const PartedSlab& parted, bool with_forces,
+                                        MatrixSlab<T>& slab) {
+  const std::vector<FarTask> tasks = tasks_of(parted);
+  slab.far.resize(tasks.size());
+  parallel_for(tasks.size(), [&](std::size_t b) {
+    check_interruption();
+    const FlushDenormals flush;
+    slab.far[b] = precision_ == AssemblyPrecision::single
+                      ? far_field_->factor(tasks[b], errors_, assembler_.narrow_table())
+                      : far_field_->factor(tasks[b], errors_, assembler_.table().lanes());
+    if (b >= parted.distant.size()) multiply_out(slab.far[b], slab);
+  });
+  for (FarBlock& block : slab.far) {
+    if (with_forces) {
+      add_forces(block.rows, block.row_forces);
+      add_forces(block.columns, block.column_forces);
+    }
+    block.row_forces = {};
+    block.column_forces = {};
+  }
+  slab.far.resize(parted.distant.size());
+}
+
+/// The entries of a block, to where a slab has its columns.
+template <class T>
+void GalerkinSlabs<T>::multiply_out(const FarBlock& block, MatrixSlab<T>& slab) const {
+  const Eigen::Index row = 3 * (block.rows.begin - slab.first);
+  const auto set = [&](const FactoredMatrices& factors, std::size_t k, const ColumnPlaces& columns,
+                       auto& to) {
+    const Eigen::MatrixXf entries = factors.outputs * factors.inputs[k];
+    auto part =
+        to.block(row, 3 * columns.place[block.columns.begin], entries.rows(), entries.cols());
+    part = entries.cast<typename std::decay_t<decltype(to)>::Scalar>();
+  };
+  const std::size_t initial = slab.initial_h.size();
+  if (!block.stiffness.empty()) set(block.stiffness, 0, slab.h_columns, slab.stiffness);
+  for (std::size_t k = 0; k < block.inertia.inputs.size(); ++k) {
+    if (k < initial)
+      set(block.inertia, k, slab.h_columns, slab.initial_h[k]);
+    else
+      set(block.inertia, k, slab.h_columns, slab.h[k - initial]);
+  }
+  if (!block.inertia.empty()) add_stiffness(block, slab);
+  for (std::size_t k = 0; k < block.tractions.inputs.size(); ++k) {
+    if (k < initial)
+      set(block.tractions, k, slab.g_columns, slab.initial_g[k]);
+    else
+      set(block.tractions, k, slab.g_columns, slab.g[k - initial]);
+  }
+}
+
+/// To the real parts of lag 0 of an expanded block.
+template <class T>
+void GalerkinSlabs<T>::add_stiffness(const FarBlock& block, MatrixSlab<T>& slab) const {
+  int lane = 0;
+  for (const InitialComponent& c : this->model_.discretisation.scheme.initial_components()) {
+    const auto at = [&](Eigen::MatrixXd& m) {
+      return m.block(3 * (block.rows.begin - slab.first),
+                     3 * slab.h_columns.place[block.columns.begin], 3 * block.rows.size(),
+                     3 * block.columns.size());
+    };
+    at(slab.initial_h[lane]) += at(slab.stiffness);
+    lane += c.paired ? 2 : 1;
+  }
+}
+
+/// Adds forces of nodes, as FarBlock has them.
+template <class T>
+void GalerkinSlabs<T>::add_forces(const NodeRange& nodes, const AlignedVector<double>& forces) {
+  if (forces.empty()) return;
+  const std::size_t size = forces.size() / nodes.size();
+  const int stride = static_cast<int>(size / FarBlock::kForces);
+  for (int node = nodes.begin; node < nodes.end; ++node) {
+    const double* from = forces.data() + (node - nodes.begin) * size;
+    this->add_columns(node, from, stride, this->model_.body_force, this->model_.initial_body_force);
+    this->add_columns(node, from + size / 2, stride, this->model_.centrifugal,
+                      this->model_.initial_centrifugal);
+  }
+}
+
 template <class T>
 template <class S>
 void GalerkinSlabs<T>::distribute_h(const GalerkinRows<S>& rows, int j, MatrixSlab<T>& slab) const {
   const bool symmetric = form_ == MatrixForm::symmetric;
   const int initial = this->layout_.initial, count = this->layout_.count();
   const int end = symmetric ? std::min(slab.last, j + 1) : slab.last;
+  const ColumnPlaces& columns = slab.h_columns;
+  if (!rows.part(slab.first - rows.first).h.holds(j)) return;
   std::vector<double> lanes(count);
   for (int node = slab.first; node < end; ++node)
     for (int e = 0; e < 9; ++e) {
-      const Eigen::Index to = 3 * (node - slab.first) + e / 3, column = 3 * j + e % 3;
+      const Eigen::Index to = 3 * (node - slab.first) + e / 3,
+                         column = 3 * columns.place[j] + e % 3;
       const bool mirrored = symmetric && j > node && j < slab.last;
       const auto set = [&](auto& matrix, auto value) {
         matrix(to, column) = value;
-        if (mirrored) matrix(column - 3 * slab.first, to + 3 * slab.first) = value;
+        if (mirrored) matrix(3 * (j - slab.first) + e % 3, 3 * columns.place[node] + e / 3) = value;
       };
       const int row = node - rows.first;
-      const double static_part = rows.static_h(3 * row + e / 3, column);
+      const double static_part = rows.static_h_block(row, j)[e];
       const S* z = rows.inertia_block(row, j) + e * rows.padded_lanes;
       combination_.initial_h(static_part, z, lanes.data());
       for (int lane = 0; lane < initial; ++lane) set(slab.initial_h[lane], lanes[lane]);
@@ -120,14 +341,15 @@ void GalerkinSlabs<T>::distribute_h(const GalerkinRows<S>& rows, int j, MatrixSl
 template <class T>
 template <class S>
 void GalerkinSlabs<T>::distribute_g(const GalerkinRows<S>& rows, int j, MatrixSlab<T>& slab) const {
-  if (!this->is_loaded(j)) return;
+  if (!this->is_loaded(j) || !rows.part(slab.first - rows.first).g.holds(j)) return;
   const int initial = this->layout_.initial, count = this->layout_.count();
   std::vector<double> lanes(count);
   for (int node = slab.first; node < slab.last; ++node)
     for (int e = 0; e < 9; ++e) {
-      const Eigen::Index to = 3 * (node - slab.first) + e / 3, column = 3 * j + e % 3;
+      const Eigen::Index to = 3 * (node - slab.first) + e / 3,
+                         column = 3 * slab.g_columns.place[j] + e % 3;
       const int row = node - rows.first;
-      combination_.g(rows.static_g(3 * row + e / 3, column),
+      combination_.g(rows.static_g_block(row, j)[e],
                      rows.adjoint_block(row, j) + e * rows.padded_lanes, lanes.data());
       for (int lane = 0; lane < initial; ++lane) slab.initial_g[lane](to, column) = lanes[lane];
       for (int lane = initial; lane < count; ++lane)
@@ -152,15 +374,41 @@ void GalerkinSlabs<T>::add_traction_moments(const MatrixSlab<T>& slab) {
     Eigen::MatrixXcd& moments = this->model_.traction_moments[i];
     const bool paired = this->model_.discretisation.scheme.initial_components()[i].paired;
     parallel_for(moments.cols(), [&](std::size_t column) {
+      if (!slab.g_columns.holds(static_cast<int>(column / 3))) return;
       auto to = moments.col(static_cast<Eigen::Index>(column));
-      const auto c = static_cast<Eigen::Index>(column);
+      const auto c = static_cast<Eigen::Index>(3 * slab.g_columns.place[column / 3] + column % 3);
       to.real() = sum(slab.initial_g[lane], c, to.real());
       if (paired) to.imag() = sum(slab.initial_g[lane + 1], c, to.imag());
     });
     lane += paired ? 2 : 1;
   }
+  for (const FarBlock& block : slab.far) add_traction_moments(block);
 }
 
+template <class T>
+void GalerkinSlabs<T>::add_traction_moments(const FarBlock& block) {
+  if (block.tractions.empty()) return;
+  const auto& vertices = assembler_.mesh().vertices;
+  const Eigen::MatrixXd moments =
+      rigid_motions({vertices.begin() + block.rows.begin, vertices.begin() + block.rows.end})
+          .transpose() *
+      block.tractions.outputs.cast<double>();
+  const auto of_lane = [&](int lane) {
+    return Eigen::MatrixXd(moments * block.tractions.inputs[lane].cast<double>());
+  };
+  int lane = 0;
+  for (std::size_t i = 0; i < this->model_.traction_moments.size(); ++i) {
+    const bool paired = this->model_.discretisation.scheme.initial_components()[i].paired;
+    auto to = this->model_.traction_moments[i].middleCols(3 * block.columns.begin,
+                                                          3 * block.columns.size());
+    to.real() += of_lane(lane);
+    if (paired) to.imag() += of_lane(lane + 1);
+    lane += paired ? 2 : 1;
+  }
+}
+
+/// The columns of node j; of symmetric matrices down to the diagonal, with the mirror image of what
+/// is in the slab.
 /// [D Q] = -Z R of the frame's accelerations, and Z u + J p/c2^2 of uniform strain: what rows of
 /// the nodes [first, last) and their mirror images add to the rows of a node.
 template <class T>
@@ -191,11 +439,13 @@ void GalerkinSlabs<T>::add_body_forces(const GalerkinRows<S>& rows, int first, i
   };
   const bool own = node < last;
   if (symmetric)
-    for (int i = first; i < std::min(node, last); ++i)
+    for (int i = first; i < std::min(node, last) && rows.part(first - rows.first).h.holds(node);
+         ++i)
       add(rows.inertia_block(i - rows.first, node), i, true);
   if (own)
     for (int j = symmetric ? node : 0; j < rows.nodes; ++j)
-      add(rows.inertia_block(node - rows.first, j), j, false);
+      if (rows.part(node - rows.first).h.holds(j))
+        add(rows.inertia_block(node - rows.first, j), j, false);
   if (own) {
     const Discretisation& d = this->model_.discretisation;
     const double scale = 1 / (d.material.shear_speed() * d.material.shear_speed());
@@ -220,11 +470,11 @@ void GalerkinSlabs<T>::add_squares(const GalerkinRows<S>& rows, int row,
   std::vector<double> lanes(count);
   const auto square = [](double a) { return a * a; };
   const int node = rows.first + row;
-  for (int j = rows.first_column; j < rows.nodes; ++j) {
+  for (int j = rows.form == MatrixForm::symmetric ? rows.first : 0; j < rows.nodes; ++j) {
     const bool mirrored = rows.form == MatrixForm::symmetric && j < node;
     const int from = mirrored ? j - rows.first : row, to = mirrored ? node : j;
     for (int e = 0; e < 9; ++e) {
-      const double static_part = rows.static_h(3 * from + e / 3, 3 * to + e % 3);
+      const double static_part = rows.static_h_block(from, to)[e];
       const S* z = rows.inertia_block(from, to) + e * rows.padded_lanes;
       sum.stiffness += square(static_part);
       combination_.initial_h(static_part, z, lanes.data());
@@ -237,7 +487,7 @@ void GalerkinSlabs<T>::add_squares(const GalerkinRows<S>& rows, int row,
   for (int j = 0; j < rows.nodes; ++j) {
     if (!this->is_loaded(j)) continue;
     for (int e = 0; e < 9; ++e) {
-      combination_.g(rows.static_g(3 * row + e / 3, 3 * j + e % 3),
+      combination_.g(rows.static_g_block(row, j)[e],
                      rows.adjoint_block(row, j) + e * rows.padded_lanes, lanes.data());
       for (int lane = 0; lane < count; ++lane)
         (lane < initial ? sum.initial_g : sum.g) += square(lanes[lane]);
@@ -252,7 +502,7 @@ typename SlabAssembler<T>::Norms GalerkinSlabs<T>::estimate_norms() {
   constexpr int kEnough = 64;             // of those in memory
   const int n = static_cast<int>(this->model_.nodes());
   typename SlabAssembler<T>::Norms sum;
-  if (kMany * rows_in_memory() >= n) {
+  if (parted_.empty() && kMany * rows_in_memory() >= n) {
     with_rows(0, 1, [&](const auto& rows) {
       const int count = rows.last - rows.first, samples = std::min(count, kEnough);
       for (int i = 0; i < samples; ++i)

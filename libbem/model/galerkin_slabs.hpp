@@ -1,5 +1,6 @@
 #pragma once
 
+#include "assembly/far_field.hpp"
 #include "assembly/galerkin_assembler.hpp"
 #include "model/slab_assembly.hpp"
 
@@ -16,6 +17,8 @@ class GalerkinSlabs : public SlabAssembler<T> {
   GalerkinSlabs(BodyModel& model, AssemblyPrecision precision, MatrixForm form);
 
   void assemble(int first, int last, MatrixSlab<T>& slab) override;
+  void use_factors(const std::vector<Slab>& partition) override;
+  void allow_errors(const FarErrors& errors) override { errors_ = errors; }
   typename SlabAssembler<T>::Norms estimate_norms() override;
   double row_sum_residual() const override { return 0; }  // rigid translation is exact
   /// Without a history nothing is multiplied but by lag 0.
@@ -23,10 +26,26 @@ class GalerkinSlabs : public SlabAssembler<T> {
   MatrixForm form() const override { return form_; }
 
  private:
+  /// A slab of which distant blocks are in factors.
+  struct PartedSlab {
+    int first, last;
+    std::vector<NodeBlock> distant;   ///< whole blocks
+    std::vector<NodeBlock> expanded;  ///< parts of blocks, which are found in factors, too
+  };
+  PartedSlab part(const Slab& slab) const;
+  RowColumns near_columns(const PartedSlab& slab) const;
+  RowColumns stored_columns(const PartedSlab& slab) const;
+  std::vector<FarTask> tasks_of(const PartedSlab& parted) const;
+  void assemble_factors(const PartedSlab& parted, bool with_forces, MatrixSlab<T>& slab);
+  void multiply_out(const FarBlock& block, MatrixSlab<T>& slab) const;
+  void add_stiffness(const FarBlock& block, MatrixSlab<T>& slab) const;
+  void add_forces(const NodeRange& nodes, const AlignedVector<double>& forces);
+  void add_traction_moments(const FarBlock& block);
   template <class F>
   void with_rows(int first, int last, const F& f);
   template <class S>
   void load_rows(int first, int last, GalerkinRows<S>& rows) const;
+  const PartedSlab* parted(int first, int last) const;
   template <class S>
   void add_squares(const GalerkinRows<S>& rows, int row,
                    typename SlabAssembler<T>::Norms& sum) const;
@@ -44,6 +63,9 @@ class GalerkinSlabs : public SlabAssembler<T> {
   std::vector<char> known_;  ///< by node: whether its rows are in the body forces
   GalerkinAssembler assembler_;
   GalerkinCombination combination_;
+  std::unique_ptr<FarField> far_field_;  ///< null: no factors
+  std::vector<PartedSlab> parted_;
+  FarErrors errors_;
   GalerkinRows<float> single_;
   GalerkinRows<double> double_;
 };

@@ -284,7 +284,7 @@ void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, MatrixForm form, co
     const Slab& sample = typical_slab(slabs, of);
     const std::vector<Eigen::MatrixXf> rows = matrix_rows(sample);
     return codec.codec->sampled_builder(
-        {slabs, of, sample, views(rows), error, model.stiffness != nullptr});
+        {slabs, of, sample, {views(rows), nullptr, {}}, error, model.stiffness != nullptr});
   };
   const auto inverse_builder = builder(
       form, std::min(codec.tolerance * inverse_scale(inverse), most_error_of_inverse(model)),
@@ -311,29 +311,46 @@ void invert_compressed(BodyModel& model, DenseMatrix<T>&& h, MatrixForm form, co
 
 }  // namespace
 
-void InitialMatrix::set_rows(Eigen::Index first, const Eigen::MatrixXd& real_part,
+void InitialMatrix::set_rows(Eigen::Index first, const ColumnPlaces& columns,
+                             const Eigen::MatrixXd& real_part,
                              const Eigen::MatrixXd* imaginary_part) {
-  constexpr Eigen::Index kTile = 64;
+  constexpr std::size_t kTile = 16;  // nodes
   const bool symmetric = form == MatrixForm::symmetric;
-  const Eigen::Index from = symmetric ? first : 0, rows = real_part.rows();
-  const Eigen::Index tiles = (real_part.cols() - from + kTile - 1) / kTile;
-  parallel_for(tiles, [&](std::size_t tile) {
-    const Eigen::Index begin = from + static_cast<Eigen::Index>(tile) * kTile;
-    const Eigen::Index end = std::min(begin + kTile, real_part.cols());
-    // mirror images of what is beyond the rows' own columns
-    const Eigen::Index beyond = symmetric ? std::clamp(first + rows, begin, end) : end;
-    const auto set = [&](const Eigen::MatrixXd& part, auto&& matrix) {
-      matrix.block(first, begin, rows, end - begin) = part.middleCols(begin, end - begin);
-      matrix.block(beyond, first, end - beyond, rows) =
-          part.middleCols(beyond, end - beyond).transpose();
-    };
-    if (paired) {
-      set(real_part, complex.real());
-      set(*imaginary_part, complex.imag());
-    } else {
-      set(real_part, real);
+  const Eigen::Index rows = real_part.rows();
+  const std::size_t nodes = columns.place.size();
+  parallel_for((nodes + kTile - 1) / kTile, [&](std::size_t tile) {
+    for (std::size_t node = tile * kTile; node < std::min(nodes, (tile + 1) * kTile); ++node) {
+      const auto column = static_cast<Eigen::Index>(3 * node);
+      if (columns.place[node] < 0 || (symmetric && column < first)) continue;
+      const bool mirrored = symmetric && column >= first + rows;
+      const auto set = [&](const Eigen::MatrixXd& part, auto&& matrix) {
+        const auto from = part.middleCols<3>(3 * columns.place[node]);
+        matrix.block(first, column, rows, 3) = from;
+        if (mirrored) matrix.block(column, first, 3, rows) = from.transpose();
+      };
+      if (paired) {
+        set(real_part, complex.real());
+        set(*imaginary_part, complex.imag());
+      } else {
+        set(real_part, real);
+      }
     }
   });
+}
+
+void InitialMatrix::set_block(Eigen::Index row, Eigen::Index column,
+                              const Eigen::MatrixXd& real_part,
+                              const Eigen::MatrixXd* imaginary_part) {
+  const auto set = [&](const Eigen::MatrixXd& part, auto&& matrix) {
+    matrix.block(row, column, part.rows(), part.cols()) = part;
+    matrix.block(column, row, part.cols(), part.rows()) = part.transpose();
+  };
+  if (paired) {
+    set(real_part, complex.real());
+    set(*imaginary_part, complex.imag());
+  } else {
+    set(real_part, real);
+  }
 }
 
 void InitialMatrix::add(const MatrixFamily& family) {

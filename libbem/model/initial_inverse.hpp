@@ -21,10 +21,13 @@ struct InitialMatrix {
     else
       real.resize(n, n);
   }
-  /// Rows from their real and imaginary parts. Of a symmetric matrix the columns from `first` on
-  /// are taken, and set their mirror images, too.
-  void set_rows(Eigen::Index first, const Eigen::MatrixXd& real_part,
+  /// Stored columns of rows from row `first` on by their real and imaginary parts. Of a symmetric
+  /// matrix the columns from `first` on are taken, and set their mirror images, too.
+  void set_rows(Eigen::Index first, const ColumnPlaces& columns, const Eigen::MatrixXd& real_part,
                 const Eigen::MatrixXd* imaginary_part);
+  /// A block off the diagonal of a symmetric matrix, and its mirror image.
+  void set_block(Eigen::Index row, Eigen::Index column, const Eigen::MatrixXd& real_part,
+                 const Eigen::MatrixXd* imaginary_part);
   /// Adds the first matrix of a family to the real part.
   void add(const MatrixFamily& family);
 };

@@ -4,12 +4,27 @@
 #include "model/rigid_projection.hpp"
 #include "model/rotation_residual.hpp"
 #include "model/sampled_targets.hpp"
+#include "model/slab_parts.hpp"
 
 #include <algorithm>
 #include <optional>
 
 namespace bem {
 namespace {
+
+/// The inertia in lag 0 of the distant blocks of a slab: `parts` parts from `part` on.
+template <class T>
+void set_far_blocks(const MatrixSlab<T>& slab, int part, int parts, InitialMatrix& to) {
+  for (const FarBlock& b : slab.far) {
+    if (b.inertia.empty()) continue;
+    const auto product = [&](int k) {
+      return Eigen::MatrixXd((b.inertia.outputs * b.inertia.inputs[k]).template cast<double>());
+    };
+    const Eigen::MatrixXd real = product(part);
+    const Eigen::MatrixXd imaginary = parts > 1 ? product(part + 1) : Eigen::MatrixXd();
+    to.set_block(3 * b.rows.begin, 3 * b.columns.begin, real, parts > 1 ? &imaginary : nullptr);
+  }
+}
 
 /// Assembles all slabs and gives them to their targets.
 template <class T>
@@ -20,23 +35,17 @@ void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vect
   const double nodes = static_cast<double>(model.nodes());
   const auto set_dense = [&](std::vector<InitialMatrix>& to, std::size_t i,
                              const std::vector<Eigen::MatrixXd>& from, int part, int parts) {
-    if (!to.empty())
-      to[i].set_rows(3 * slab.first, from[part], parts > 1 ? &from[part + 1] : nullptr);
+    if (to.empty()) return;
+    const ColumnPlaces& columns = &to == &targets.dense_h ? slab.h_columns : slab.g_columns;
+    to[i].set_rows(3 * slab.first, columns, from[part], parts > 1 ? &from[part + 1] : nullptr);
   };
   const auto take_stiffness = [&] {
     if (!targets.stiffness) return;
-    const typename MatrixSlab<T>::Matrix rows = slab.stiffness.template cast<T>();
-    targets.stiffness->add_rows({view(rows)});
+    const SlabFamily<T> rows = stiffness_parts(slab);
+    targets.stiffness->add_parts(rows.parts);
     if (!targets.without_stiffness) return;
     for_each_initial(model.discretisation.scheme,
                      [&](std::size_t, int part, int) { slab.initial_h[part] -= slab.stiffness; });
-  };
-  const auto add_rows = [&](std::vector<std::unique_ptr<FamilyBuilder<T>>>& to, std::size_t i,
-                            const std::vector<Eigen::MatrixXd>& from, int part, int parts) {
-    if (to.empty()) return;
-    std::vector<typename MatrixSlab<T>::Matrix> rows;
-    for (int k = part; k < part + parts; ++k) rows.emplace_back(from[k].template cast<T>());
-    to[i]->add_rows(views(rows));
   };
   for (const Slab& s : slabs) {
     if (progress) progress("assembly", s.row_begin / nodes);
@@ -47,14 +56,17 @@ void assemble_all(SlabAssembler<T>& assembler, BodyModel& model, const std::vect
       assembler.assemble(s.row_begin, s.row_end, slab);
     }
     rotation.add(slab);
-    if (targets.h) targets.h->add_rows(views(slab.h));
-    if (targets.g) targets.g->add_rows(views(slab.g));
+    if (targets.h) targets.h->add_parts(h_parts(slab));
+    if (targets.g) targets.g->add_parts(g_parts(slab));
     take_stiffness();
     for_each_initial(model.discretisation.scheme, [&](std::size_t i, int part, int parts) {
       set_dense(targets.dense_h, i, slab.initial_h, part, parts);
       set_dense(targets.dense_g, i, slab.initial_g, part, parts);
-      add_rows(targets.initial_h, i, slab.initial_h, part, parts);
-      add_rows(targets.initial_g, i, slab.initial_g, part, parts);
+      if (!targets.dense_h.empty()) set_far_blocks(slab, part, parts, targets.dense_h[i]);
+      if (!targets.initial_h.empty())
+        targets.initial_h[i]->add_parts(initial_h_parts(slab, part, parts).parts);
+      if (!targets.initial_g.empty())
+        targets.initial_g[i]->add_parts(initial_g_parts(slab, part, parts).parts);
     });
   }
   model.report.row_sum_residual = assembler.row_sum_residual();

@@ -18,15 +18,35 @@ void RotationResidual::add(const MatrixSlab<T>& slab) {
   const bool symmetric = form_ == MatrixForm::symmetric;
   const InitialComponent& c = model_.discretisation.scheme.initial_components()[0];
   const Eigen::Index first = 3 * slab.first, rows = 3 * (slab.last - slab.first);
-  const Eigen::Index columns = symmetric ? turns_.rows() - first : turns_.rows();
-  const Eigen::Index beyond = symmetric ? columns - rows : 0;
+  const auto own = turns_.middleRows(first, rows);
   const auto apply = [&](const Eigen::MatrixXd& part, auto moved) {
-    moved.middleRows(first, rows) += part.rightCols(columns) * turns_.bottomRows(columns);
-    moved.bottomRows(beyond) += part.rightCols(beyond).transpose() * turns_.middleRows(first, rows);
+    for (int node = symmetric ? slab.first : 0; node < static_cast<int>(model_.nodes()); ++node) {
+      if (!slab.h_columns.holds(node)) continue;
+      const auto columns = part.middleCols<3>(3 * slab.h_columns.place[node]);
+      moved.middleRows(first, rows) += columns * turns_.middleRows<3>(3 * node);
+      if (symmetric && node >= slab.last)
+        moved.template middleRows<3>(3 * node) += columns.transpose() * own;
+      size_ = std::max(size_, columns.cwiseAbs().maxCoeff());
+    }
+  };
+  const auto apply_factors = [&](const FarBlock& b, const FactoredMatrices& factors,
+                                 std::size_t which, auto moved) {
+    if (which >= factors.inputs.size()) return;
+    const Eigen::MatrixXd outputs = factors.outputs.cast<double>(),
+                          inputs = factors.inputs[which].cast<double>();
+    const Eigen::Index row = 3 * b.rows.begin, column = 3 * b.columns.begin;
+    moved.middleRows(row, outputs.rows()) +=
+        outputs * (inputs * turns_.middleRows(column, inputs.cols()));
+    moved.middleRows(column, inputs.cols()) +=
+        inputs.transpose() * (outputs.transpose() * turns_.middleRows(row, outputs.rows()));
   };
   apply(slab.initial_h[0], moved_.real());
   if (c.paired) apply(slab.initial_h[1], moved_.imag());
-  size_ = std::max(size_, slab.initial_h[0].rightCols(columns).cwiseAbs().maxCoeff());
+  for (const FarBlock& b : slab.far) {
+    apply_factors(b, b.stiffness, 0, moved_.real());
+    apply_factors(b, b.inertia, 0, moved_.real());
+    if (c.paired) apply_factors(b, b.inertia, 1, moved_.imag());
+  }
   known_.emplace_back(first, rows);
 }
 

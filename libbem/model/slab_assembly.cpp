@@ -33,28 +33,39 @@ SlabAssembler<T>::SlabAssembler(BodyModel& model)
 }
 
 template <class T>
-void SlabAssembler<T>::prepare(int first, int last, MatrixSlab<T>& slab) const {
-  const Eigen::Index rows = 3 * (last - first);
-  const auto columns = static_cast<Eigen::Index>(3 * model_.nodes());
+void SlabAssembler<T>::prepare(int first, int last, ColumnPlaces h, ColumnPlaces g,
+                               MatrixSlab<T>& slab) const {
+  const Eigen::Index rows = 3 * (last - first), h_columns = 3 * h.count, g_columns = 3 * g.count;
   slab.first = first;
   slab.last = last;
-  resize(slab.h, lag_count(), rows, columns);
-  resize(slab.g, has_tractions() ? lag_count() : 0, rows, columns);
-  resize(slab.initial_h, initial_count(), rows, columns);
-  resize(slab.initial_g, has_tractions() ? initial_count() : 0, rows, columns);
+  slab.h_columns = std::move(h);
+  slab.g_columns = std::move(g);
+  slab.far.clear();
+  resize(slab.h, lag_count(), rows, h_columns);
+  resize(slab.g, has_tractions() ? lag_count() : 0, rows, g_columns);
+  resize(slab.initial_h, initial_count(), rows, h_columns);
+  resize(slab.initial_g, has_tractions() ? initial_count() : 0, rows, g_columns);
   if (model_.loads == Loads::some) {
-    clear_columns(slab.g);
-    clear_columns(slab.initial_g);
+    clear_columns(slab.g_columns, slab.g);
+    clear_columns(slab.g_columns, slab.initial_g);
   }
+}
+
+template <class T>
+void SlabAssembler<T>::prepare(int first, int last, MatrixSlab<T>& slab) const {
+  const ColumnPlaces all(static_cast<int>(model_.nodes()), 0);
+  prepare(first, last, all, all, slab);
 }
 
 /// Those of nodes without loads.
 template <class T>
 template <class Matrix>
-void SlabAssembler<T>::clear_columns(std::vector<Matrix>& matrices) const {
+void SlabAssembler<T>::clear_columns(const ColumnPlaces& columns,
+                                     std::vector<Matrix>& matrices) const {
   parallel_for(matrices.size(), [&](std::size_t k) {
     for (std::size_t node = 0; node < loaded_.size(); ++node)
-      if (!loaded_[node]) matrices[k].middleCols(static_cast<Eigen::Index>(3 * node), 3).setZero();
+      if (!loaded_[node] && columns.place[node] >= 0)
+        matrices[k].middleCols(3 * columns.place[node], 3).setZero();
   });
 }
 

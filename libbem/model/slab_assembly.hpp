@@ -2,6 +2,8 @@
 
 #include "algebra/lu.hpp"
 #include "algebra/matrix_form.hpp"
+#include "assembly/far_block.hpp"
+#include "assembly/galerkin_rows.hpp"
 #include "compress/family_builder.hpp"
 #include "model/body_model.hpp"
 
@@ -14,11 +16,13 @@ using Progress = std::function<void(const std::string& phase, double fraction)>;
 
 /// Rows [first, last) of nodes of all lag matrices in memory, column-major, and of the matrices of
 /// lag 0. T: float or double, what is stored. Symmetric matrices may lack what is to the left of
-/// the slab's own columns.
+/// the slab's own columns. Columns that are in `far` are not stored otherwise.
 template <class T>
 struct MatrixSlab {
   using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
   int first = 0, last = 0;
+  ColumnPlaces h_columns, g_columns;  ///< of the stored columns of all matrices of H and of G
+  std::vector<FarBlock> far;
   std::vector<Matrix> h, g;   ///< lags >= 1, by lag index
   Eigen::MatrixXd stiffness;  ///< D(0) of the inertial form, which is part of initial_h
   /// Lag 0: real and, of complex components, imaginary parts, one component after another.
@@ -48,6 +52,11 @@ class SlabAssembler {
   };
   virtual Norms estimate_norms() = 0;
 
+  /// Lets slabs with the rows of one of these have their distant blocks in factors, where that is
+  /// worth it: then allow_errors() follows before the first slab. To be called first.
+  virtual void use_factors(const std::vector<Slab>& /*partition*/) {}
+  virtual void allow_errors(const FarErrors& /*errors*/) {}
+
   virtual double row_sum_residual() const = 0;
   /// Whether lags of h multiply accelerations, and slabs have `stiffness`.
   virtual bool is_inertial() const = 0;
@@ -64,7 +73,11 @@ class SlabAssembler {
 
   bool has_tractions() const { return !loaded_.empty(); }
   bool is_loaded(int node) const { return has_tractions() && loaded_[node] != 0; }
-  /// Sizes a slab; columns of G without loads are zero.
+  /// By node; empty if there is no G.
+  const std::vector<char>& loaded_nodes() const { return loaded_; }
+  /// Sizes a slab with these columns; those of G without loads are zero.
+  void prepare(int first, int last, ColumnPlaces h, ColumnPlaces g, MatrixSlab<T>& slab) const;
+  /// A slab with all columns.
   void prepare(int first, int last, MatrixSlab<T>& slab) const;
   /// Lanes of 3 x n numbers of a node, row after row, to columns from `first` on.
   void distribute_columns(int node, const double* from, int entries, int padded_lanes,
@@ -85,7 +98,7 @@ class SlabAssembler {
                       Eigen::Index first, std::vector<Eigen::MatrixXd>& lags,
                       std::vector<Eigen::MatrixXcd>& initial, const F& f) const;
   template <class Matrix>
-  void clear_columns(std::vector<Matrix>& matrices) const;
+  void clear_columns(const ColumnPlaces& columns, std::vector<Matrix>& matrices) const;
 
   std::vector<char> loaded_;  ///< by node: whether G has its columns; empty if there is no G
 };

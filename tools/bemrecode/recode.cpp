@@ -46,8 +46,12 @@ std::unique_ptr<MatrixFamily> recode(const MatrixFamily& family, MatrixForm form
     slabs = with_form(slabs, form);
     const Slab& sample = typical_slab(slabs, form);
     const std::vector<Eigen::MatrixXf> rows = rows_of(family, sample.row_begin, sample.row_end);
-    builder = codec.sampled_builder(
-        {slabs, form, sample, views(rows), options.tolerance * norm_of(family), true});
+    builder = codec.sampled_builder({slabs,
+                                     form,
+                                     sample,
+                                     {views(rows), nullptr, {}},
+                                     options.tolerance * norm_of(family),
+                                     true});
   } else {
     builder = codec.single_builder(options, static_cast<int>(nodes.size()), family.count());
   }

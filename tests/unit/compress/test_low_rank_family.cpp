@@ -19,9 +19,10 @@ struct LowRankExample : MatrixExample {
                                          MatrixForm form = MatrixForm::general) const {
     const std::vector<Slab> partition = with_form(make_partition(nodes, options), form);
     const Slab& middle = partition[partition.size() / 2];
-    LowRankBuilder builder(
-        partition, kMatrices,
-        LowRankBuilder::choose_quantum(middle, rows_of(middle), tolerance * norm, true), form);
+    LowRankBuilder builder(partition, kMatrices,
+                           LowRankBuilder::choose_quantum(middle, {rows_of(middle), nullptr, {}},
+                                                          tolerance * norm, true),
+                           form);
     for (const Slab& slab : partition) builder.add_rows(rows_of(slab));
     if (error) *error = builder.error();
     return builder.finish();

@@ -50,6 +50,99 @@ double size_of(const Matrix& m) {
 
 }  // namespace
 
+TEST_CASE("slabs with distant blocks in factors have the same matrices and forces") {
+  const Material m = material(1000, 1e6, 0.3);
+  const auto bar = [&] {
+    BodyModel model;
+    model.kind = ModelKind::dynamic;
+    model.geometry = geometry_of(box(Vec3(32, 1, 0.8), {48, 2, 2}), m.density);
+    model.discretisation = options_for(model.geometry, m, "theta:0.75", 4).discretisation;
+    model.discretisation.method = SpatialMethod::galerkin;
+    model.loads = Loads::some;
+    for (int node = 0; node < static_cast<int>(model.nodes()); node += 2)
+      model.loaded_nodes.push_back(node);
+    return model;
+  };
+  BodyModel entire = bar(), parted = bar();
+  const std::vector<Slab> slabs = make_partition(entire.geometry.nodes.vertices, {});
+  GalerkinSlabs<float> entries(entire, AssemblyPrecision::single, MatrixForm::symmetric),
+      factors(parted, AssemblyPrecision::single, MatrixForm::symmetric);
+  factors.use_factors(slabs);
+  const auto norms = factors.estimate_norms();
+  const double size = 3.0 * static_cast<double>(parted.nodes());
+  const auto error = [&](double norm, int matrices) {
+    return 1e-6 * norm / (size * std::sqrt(matrices));
+  };
+  factors.allow_errors(
+      {error(norms.h, factors.lag_count()), error(norms.initial_inertia, factors.initial_count()),
+       error(norms.g, factors.lag_count()), error(norms.initial_g, factors.initial_count()),
+       error(norms.stiffness, 1)});
+  std::size_t blocks = 0;
+  double squares[5] = {}, of[5] = {};
+  for (const Slab& s : slabs) {
+    MatrixSlab<float> a, b;
+    entries.assemble(s.row_begin, s.row_end, a);
+    factors.assemble(s.row_begin, s.row_end, b);
+    blocks += b.far.size();
+    const auto compare = [&](int kind, const auto& found, const auto& expected,
+                             const ColumnPlaces& columns, bool upper, auto factored) {
+      for (std::size_t k = 0; k < expected.size(); ++k)
+        for (int node = upper ? s.row_begin : 0; node < static_cast<int>(parted.nodes()); ++node) {
+          const Matrix wanted = expected[k].middleCols(3 * node, 3).template cast<double>();
+          of[kind] += wanted.squaredNorm();
+          if (columns.holds(node)) {
+            squares[kind] +=
+                (found[k].middleCols(3 * columns.place[node], 3).template cast<double>() - wanted)
+                    .squaredNorm();
+            continue;
+          }
+          for (const FarBlock& f : b.far) {
+            if (node < f.columns.begin || node >= f.columns.end) continue;
+            squares[kind] +=
+                (factored(f, k).middleCols(3 * (node - f.columns.begin), 3) -
+                 wanted.middleRows(3 * (f.rows.begin - s.row_begin), 3 * f.rows.size()))
+                    .squaredNorm();
+          }
+        }
+    };
+    const auto times = [](const FactoredMatrices& f, std::size_t k) -> Matrix {
+      return (f.outputs * f.inputs[k]).cast<double>();
+    };
+    const std::size_t initial = b.initial_h.size();
+    compare(0, b.h, a.h, b.h_columns, true,
+            [&](const FarBlock& f, std::size_t k) { return times(f.inertia, k + initial); });
+    compare(1, b.g, a.g, b.g_columns, false,
+            [&](const FarBlock& f, std::size_t k) { return times(f.tractions, k + initial); });
+    compare(2, b.initial_h, a.initial_h, b.h_columns, true, [&](const FarBlock& f, std::size_t k) {
+      return Matrix(times(f.inertia, k) + times(f.stiffness, 0));
+    });
+    compare(3, b.initial_g, a.initial_g, b.g_columns, false,
+            [&](const FarBlock& f, std::size_t k) { return times(f.tractions, k); });
+    compare(4, std::vector<Matrix>{b.stiffness}, std::vector<Matrix>{a.stiffness}, b.h_columns,
+            true, [&](const FarBlock& f, std::size_t) { return times(f.stiffness, 0); });
+  }
+  CHECK(blocks >= 4);
+  for (int kind = 0; kind < 5; ++kind) {
+    INFO("kind " << kind);
+    CHECK(std::sqrt(squares[kind] / of[kind]) < 2e-6);
+    CHECK(of[kind] > 0);
+  }
+  const auto compare_all = [](const auto& found, const auto& expected, double tolerance) {
+    double difference = 0, largest = 0;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      difference = std::max(difference, (found[k] - expected[k]).cwiseAbs().maxCoeff());
+      largest = std::max(largest, expected[k].cwiseAbs().maxCoeff());
+    }
+    CHECK(difference < tolerance * largest);
+    CHECK(largest > 0);
+  };
+  compare_all(parted.body_force, entire.body_force, 5e-5);
+  compare_all(parted.initial_body_force, entire.initial_body_force, 1e-5);
+  compare_all(parted.centrifugal, entire.centrifugal, 5e-5);
+  compare_all(parted.initial_centrifugal, entire.initial_centrifugal, 1e-5);
+  compare_all(parted.traction_moments, entire.traction_moments, 1e-5);
+}
+
 TEST_CASE("slabs of Galerkin rows are pieces of the whole") {
   const MatrixForm form = GENERATE(MatrixForm::general, MatrixForm::symmetric);
   for (const char* scheme : {"radau2", "bdf2"}) {
