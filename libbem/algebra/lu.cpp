@@ -104,6 +104,13 @@ void Lu<T>::solve(DenseMatrix<T>& b) const {
   const int n = static_cast<int>(lu_.rows());
   require(b.rows() == n, "the right-hand side has as many rows as the matrix");
   const int count = static_cast<int>(b.cols());
+  if (count == 1) {  // BLAS would pack the factors for one column
+    for (int k = 0; k < n; ++k)
+      if (pivots_[k] != k) std::swap(b(k, 0), b(pivots_[k], 0));
+    lu_.template triangularView<Eigen::UnitLower>().solveInPlace(b.col(0));
+    lu_.template triangularView<Eigen::Upper>().solveInPlace(b.col(0));
+    return;
+  }
   parallel_for(tiles(count), [&](std::size_t task) {
     const int begin = static_cast<int>(task) * kTile;
     const int columns = std::min(kTile, count - begin);

@@ -1,8 +1,10 @@
 #include "constraints/mechanism.hpp"
 
+#include "base/error.hpp"
 #include "dynamics/body_compliance.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace bem {
@@ -101,19 +103,75 @@ std::vector<Port> Mechanism::joint_ports(int body) const {
   return ports;
 }
 
-void Mechanism::factorise() {
-  const Eigen::Index block = unknowns() / stages_;
-  DenseMatrix<double> w = DenseMatrix<double>::Zero(unknowns(), unknowns());
-  for (int body : bodies_) {
-    const std::vector<Port> ports = joint_ports(body);
-    const BodyCompliance compliance((*all_bodies_)[body]);
-    for (int a = 0; a < stages_ && !ports.empty(); ++a)
-      for (int b = 0; b < stages_; ++b)
-        add_port_compliance(ports, ports,
-                            compliance.between(NodeGroup::joint, a, NodeGroup::joint, b),
-                            w.block(a * block, b * block, block, block));
+/// Makes the groups of the active joints and the room for their factors.
+void Mechanism::arrange() {
+  std::map<std::pair<int, int>, std::vector<int>> by_bodies;
+  for (std::size_t j = 0; j < active_.size(); ++j) {
+    const Joint& joint = plan_->joints[joints_[active_[j]]];
+    by_bodies[std::minmax(joint.a.body, joint.b.body)].push_back(static_cast<int>(j));
   }
-  factors_ = std::make_unique<Lu<double>>(std::move(w));
+  groups_.clear();
+  rows_.resize(static_cast<std::size_t>(unknowns()));
+  std::vector<int> sizes;
+  std::vector<std::vector<int>> coupled(by_bodies.size());
+  int row = 0;
+  for (const auto& [bodies, joints] : by_bodies) {
+    int group = 0;
+    for (const auto& [others, unused] : by_bodies) {
+      for (int body : {bodies.first, bodies.second})
+        if (body >= 0 && (body == others.first || body == others.second))
+          coupled[groups_.size()].push_back(group);
+      ++group;
+    }
+    for (int a = 0; a < stages_; ++a)
+      for (int j : joints)
+        for (int k = 0; k < 3; ++k) rows_[3 * (a * active_.size() + j) + k] = row++;
+    sizes.push_back(static_cast<int>(3 * joints.size()) * stages_);
+    groups_.push_back(joints);
+  }
+  factors_ = std::make_unique<BlockLu>(std::move(sizes), coupled);
+}
+
+/// By group: where its joints act on a body; constraints are places in the group.
+std::vector<std::vector<Port>> Mechanism::ports_by_group(int body) const {
+  std::vector<std::pair<int, int>> places(active_.size());  // group and place in it
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (std::size_t i = 0; i < groups_[g].size(); ++i)
+      places[groups_[g][i]] = {static_cast<int>(g), static_cast<int>(i)};
+  std::vector<std::vector<Port>> out(groups_.size());
+  for (Port port : joint_ports(body)) {
+    const auto [group, place] = places[port.constraint];
+    port.constraint = place;
+    out[group].push_back(port);
+  }
+  return out;
+}
+
+void Mechanism::factorise() {
+  arrange();
+  const auto block = [&](std::size_t group) {
+    return static_cast<Eigen::Index>(3 * groups_[group].size());
+  };
+  for (int body : bodies_) {
+    const std::vector<std::vector<Port>> ports = ports_by_group(body);
+    const BodyCompliance compliance((*all_bodies_)[body]);
+    if (std::all_of(ports.begin(), ports.end(), [](const auto& p) { return p.empty(); })) continue;
+    for (int a = 0; a < stages_; ++a)
+      for (int b = 0; b < stages_; ++b) {
+        const Eigen::MatrixXd w = compliance.between(NodeGroup::joint, a, NodeGroup::joint, b);
+        for (std::size_t g = 0; g < ports.size(); ++g)
+          for (std::size_t h = 0; h < ports.size(); ++h)
+            if (!ports[g].empty() && !ports[h].empty())
+              add_port_compliance(ports[g], ports[h], w,
+                                  factors_->block(static_cast<int>(g), static_cast<int>(h))
+                                      .block(a * block(g), b * block(h), block(g), block(h)));
+      }
+  }
+  if (!factors_->factorise())
+    throw Error(ErrorCode::numerical, "the joints of the body \"" +
+                                          (*all_bodies_)[bodies_[0]].name() +
+                                          "\" contradict or repeat each other: the matrix of their "
+                                          "forces is singular");
   fresh_ = true;
 }
 
@@ -125,9 +183,13 @@ bool Mechanism::refresh() {
 
 Eigen::MatrixXd Mechanism::solve(const Eigen::MatrixXd& displacements) {
   if (!factors_) factorise();
-  DenseMatrix<double> x = displacements;
-  factors_->solve(x);
-  return x;
+  Eigen::MatrixXd grouped(displacements.rows(), displacements.cols()), out = displacements;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    grouped.row(rows_[i]) = displacements.row(static_cast<Eigen::Index>(i));
+  factors_->solve(grouped);
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    out.row(static_cast<Eigen::Index>(i)) = grouped.row(rows_[i]);
+  return out;
 }
 
 void Mechanism::add_forces(const Eigen::VectorXd& change) {
@@ -145,10 +207,11 @@ void Mechanism::visit_state(StateArchive& state) {
   for (std::size_t j = 0; j < active_.size(); ++j)
     state.check(active_[j] > (j > 0 ? active_[j - 1] : -1) &&
                 active_[j] < static_cast<int>(joints_.size()));
-  if (state.restores()) factors_ = factorised ? std::make_unique<Lu<double>>() : nullptr;
-  if (!factorised) return;
-  state(*factors_);
-  state.check(factors_->size() == unknowns());
+  if (state.restores()) {
+    factors_.reset();
+    if (factorised) arrange();
+  }
+  if (factorised) state(*factors_);
 }
 
 void Mechanism::add_forces_to(std::vector<ConstraintForces>& by_body) const {

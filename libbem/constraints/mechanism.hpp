@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/lu.hpp"
+#include "algebra/block_lu.hpp"
 #include "constraints/joint_plan.hpp"
 #include "constraints/port.hpp"
 
@@ -58,9 +58,11 @@ class Mechanism {
 
  private:
   std::vector<Port> joint_ports(int body) const;
+  std::vector<std::vector<Port>> ports_by_group(int body) const;
   const Mat3& axes(const Joint& joint) const;
   Vec3 place(const Attachment& at, int stage) const;
   int slot(int body, int node) const;
+  void arrange();
   void factorise();
 
   const JointPlan* plan_;
@@ -69,7 +71,10 @@ class Mechanism {
   int stages_ = 1;
   bool held_ = false, fresh_ = false;
   Eigen::MatrixXd forces_;  ///< 3 joints_.size() x s [N]
-  std::unique_ptr<Lu<double>> factors_;
+  /// Joints between the same two bodies are a group, which acts on those of the same bodies alone.
+  std::vector<std::vector<int>> groups_;  ///< by group its joints, places in active_
+  std::vector<int> rows_;                 ///< by unknown its row, groups one after the other
+  std::unique_ptr<BlockLu> factors_;      ///< null until they are needed
 };
 
 /// Every body of a scene in its mechanism.

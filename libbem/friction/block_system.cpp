@@ -1,6 +1,6 @@
 #include "friction/block_system.hpp"
 
-#include "friction/block_lu.hpp"
+#include "algebra/block_lu.hpp"
 
 #include <algorithm>
 #include <map>

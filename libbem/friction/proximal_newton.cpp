@@ -13,10 +13,13 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
 
-constexpr std::size_t kMemory = 4;    ///< residuals that a step may rise to (nonmonotone search)
-constexpr int kHalvings = 8;          ///< of a step at most
+constexpr std::size_t kMemory = 4;  ///< residuals that a step may rise to (nonmonotone search)
+/// Lengths of a step that are tried: whole and half. Where many contacts open or close at once the
+/// residual rises for a step or two before it falls, and shorter steps would follow its kinks.
+constexpr int kLengths = 2;
 constexpr double kDecrease = 1e-3;    ///< decrease of the residual asked for, relative to the step
 constexpr double kInexactness = 0.1;  ///< residual over proximal term at which a problem is solved
+constexpr double kRise = 10;          ///< of alpha after a failure
 constexpr int kCautious = 5;          ///< problems after a failure for which alpha falls slowly
 constexpr double kLeastAlpha = 1e-12, kLargestAlpha = 1e3;
 
@@ -117,8 +120,8 @@ bool ProximalNewton::newton_direction(const Eigen::VectorXd& r, const Eigen::Vec
   return direction_.allFinite();
 }
 
-/// Halves the step until the residual is below the reference; takes the best one tried otherwise.
-/// Returns the step.
+/// Takes the longest step whose residual is below the reference, else the best one tried. Returns
+/// the step.
 double ProximalNewton::line_search(double reference, Eigen::VectorXd& r, Eigen::VectorXd& u) {
   const FrictionProblem& p = set_.problem;
   change_.resize(r.size());
@@ -126,7 +129,7 @@ double ProximalNewton::line_search(double reference, Eigen::VectorXd& r, Eigen::
     change_.segment<3>(3 * i) = displacement(p, i, direction_) - p.q.segment<3>(3 * i) +
                                 alpha_ * set_.scale[i] * direction_.segment<3>(3 * i);
   double best_norm = std::numeric_limits<double>::infinity(), best_step = 0, step = 1;
-  for (int halving = 0; halving < kHalvings; ++halving, step *= 0.5) {
+  for (int length = 0; length < kLengths; ++length, step *= 0.5) {
     trial_r_ = r + step * direction_;
     trial_u_ = u + step * change_;
     const double norm = residual(trial_r_, trial_u_, trial_value_);
@@ -193,7 +196,7 @@ int ProximalNewton::solve(double tolerance, double regularisation, const NewtonL
     } else {
       ++failures;
       recent_failures = kCautious;
-      alpha_ = std::min(kLargestAlpha, 5 * alpha_);
+      alpha_ = std::min(kLargestAlpha, kRise * alpha_);
     }
     if (solved || error < 0.5 * centre_error) {
       centre_ = r;

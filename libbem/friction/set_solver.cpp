@@ -15,14 +15,14 @@ namespace {
 constexpr int kStageSweeps = 20;    ///< sweeps of one staggered problem at most
 constexpr int kCheckInterval = 50;  ///< sweeps between evaluations of the error at most
 
-constexpr int kFirstSweeps = 20;  ///< Gauss-Seidel sweeps before Newton's method
+constexpr int kFirstSweeps = 5;  ///< Gauss-Seidel sweeps before Newton's method
 constexpr int kInteriorSteps = 100;
 constexpr double kPolishBelow =
     1e-4;  ///< error of an interior point from which Newton may converge
 
 /// Regularisations of Newton's method where it starts: at first, near a solution, and on problems
 /// on which everything else failed.
-constexpr double kFirstAlpha = 1e-5, kPolishAlpha = 1e-6, kPatientAlpha = 1e-3;
+constexpr double kFirstAlpha = 1e-3, kPolishAlpha = 1e-6, kPatientAlpha = 1e-3;
 
 /// Interior point steps until a Newton polish from its iterate converges; returns linear solves.
 int interior_point_and_polish(const ContactSet& set, double tolerance, int max_steps,
@@ -137,9 +137,9 @@ SetResult solve_newton(const ContactSet& set, double tolerance, double sufficien
   result.sweeps = solve_nsgs(set, tolerance, first, best).sweeps;
   ProximalNewton newton(set);
   NewtonLimits attempt;
-  attempt.steps = std::min(20, options.max_newton_steps);
+  attempt.steps = std::min(60, options.max_newton_steps);
   attempt.steps_per_goal = 12;
-  attempt.failures = 0;
+  attempt.failures = 3;
   int& steps = result.newton_steps;
   steps = newton.solve(tolerance, kFirstAlpha, attempt, best);
   if (best.error() > sufficient && is_infeasible(set, sufficient, newton, best, steps)) {

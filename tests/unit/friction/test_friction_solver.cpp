@@ -162,7 +162,7 @@ TEST_CASE("a nearby start saves work") {
     const FrictionResult first = solve_friction(p, cold, options);
     Eigen::VectorXd warm = cold;
     CHECK(solve_friction(p, warm, options).sweeps == 0);
-    CHECK(warm == cold);
+    CHECK((warm - cold).norm() <= 1e-15 * cold.norm());  // but for the change of units and back
     warm = 1.001 * cold;
     const FrictionResult second = solve_friction(p, warm, options);
     CHECK(first.converged);

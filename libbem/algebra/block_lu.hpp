@@ -3,12 +3,13 @@
 #include "algebra/lu.hpp"
 
 #include <memory>
+#include <vector>
 
 namespace bem {
 
 /// LU factorisation of a sparse matrix of large dense blocks between groups of unknowns, such as
-/// the contacts between the same two bodies. Groups are eliminated in the order of least degree;
-/// pivots are chosen within a group.
+/// the contacts or joints between the same two bodies. Groups are eliminated in the order of least
+/// degree; pivots are chosen within a group.
 class BlockLu {
  public:
   /// `sizes`: unknowns per group; `coupled[i]`: groups that i acts on or that act on it.
@@ -21,11 +22,15 @@ class BlockLu {
 
   /// In place. False if a pivot is zero or not finite.
   bool factorise();
-  /// b := M^{-1} b, groups one after the other.
-  void solve(Eigen::VectorXd& b) const;
+  /// b := M^{-1} b for any number of columns; rows: groups one after the other.
+  void solve(Eigen::Ref<Eigen::MatrixXd> b) const;
+
+  /// The factors. What restores them has been made with the same sizes and couplings.
+  void visit_state(StateArchive& state);
 
  private:
   class Pivot;
+  class SmallLu;
   int& index(int i, int j) { return index_[static_cast<std::size_t>(i) * sizes_.size() + j]; }
   int index(int i, int j) const { return index_[static_cast<std::size_t>(i) * sizes_.size() + j]; }
   void choose_order(const std::vector<std::vector<int>>& coupled);

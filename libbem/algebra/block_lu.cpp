@@ -1,4 +1,4 @@
-#include "friction/block_lu.hpp"
+#include "algebra/block_lu.hpp"
 
 #include "algebra/blas.hpp"
 #include "base/error.hpp"
@@ -30,9 +30,27 @@ void subtract_product(const DenseMatrix<double>& a, const DenseMatrix<double>& b
 
 }  // namespace
 
+/// A small LU factorisation with a state.
+class BlockLu::SmallLu : public Eigen::PartialPivLU<DenseMatrix<double>> {
+ public:
+  void visit_state(StateArchive& state) {
+    state.resizable(m_lu, m_p.indices());
+    const Eigen::Index n = m_lu.rows();
+    state.check(m_lu.cols() == n && m_p.size() == n);
+    std::vector<char> seen(static_cast<std::size_t>(n), 0);
+    for (Eigen::Index k = 0; k < m_p.size(); ++k) {
+      const int row = m_p.indices()[k];
+      state.check(row >= 0 && row < n && !seen[row]);
+      seen[row] = 1;
+    }
+    m_isInitialized = true;
+  }
+};
+
 /// Factors of a block of the diagonal.
 class BlockLu::Pivot {
  public:
+  Pivot() = default;  ///< of nothing, to be restored
   explicit Pivot(DenseMatrix<double>&& a) {
     if (a.rows() < kSmallPivot) {
       small_.compute(a);
@@ -51,8 +69,18 @@ class BlockLu::Pivot {
       b = small_.solve(b).eval();
   }
 
+  /// `size`: unknowns of the group.
+  void visit_state(StateArchive& state, int size) {
+    if (state.restores() && size >= kSmallPivot) large_.emplace();
+    if (large_)
+      state(*large_);
+    else
+      state(small_);
+    state.check((large_ ? large_->size() : small_.matrixLU().rows()) == size);
+  }
+
  private:
-  Eigen::PartialPivLU<DenseMatrix<double>> small_;
+  SmallLu small_;
   std::optional<Lu<double>> large_;
 };
 
@@ -137,18 +165,26 @@ bool BlockLu::factorise() {
   return true;
 }
 
-void BlockLu::solve(Eigen::VectorXd& b) const {
+void BlockLu::solve(Eigen::Ref<Eigen::MatrixXd> b) const {
   for (int k : order_) {
-    DenseMatrix<double> part = b.segment(begin_[k], sizes_[k]);
+    DenseMatrix<double> part = b.middleRows(begin_[k], sizes_[k]);
     pivots_[k]->solve(part);
-    b.segment(begin_[k], sizes_[k]) = part;
+    b.middleRows(begin_[k], sizes_[k]) = part;
     for (int i : later_[k])
-      b.segment(begin_[i], sizes_[i]).noalias() -= blocks_[index(i, k)] * part;
+      b.middleRows(begin_[i], sizes_[i]).noalias() -= blocks_[index(i, k)] * part;
   }
   for (auto k = order_.rbegin(); k != order_.rend(); ++k)
     for (int j : later_[*k])
-      b.segment(begin_[*k], sizes_[*k]).noalias() -=
-          blocks_[index(*k, j)] * b.segment(begin_[j], sizes_[j]);
+      b.middleRows(begin_[*k], sizes_[*k]).noalias() -=
+          blocks_[index(*k, j)] * b.middleRows(begin_[j], sizes_[j]);
+}
+
+void BlockLu::visit_state(StateArchive& state) {
+  for (int k : order_) {
+    if (state.restores()) pivots_[k] = std::make_unique<Pivot>();
+    pivots_[k]->visit_state(state, sizes_[k]);
+    for (int other : later_[k]) state(block(k, other), block(other, k));
+  }
 }
 
 }  // namespace bem
