@@ -56,6 +56,10 @@ class GalerkinAssembler {
   /// as those of G.
   std::vector<Eigen::MatrixXd> assemble_loads(const std::vector<PanelLoad>& loads) const;
 
+  /// M = int phi~_i L_j of all nodes [m^2], N x N: the work of nodal tractions p of an axis on
+  /// displacements u of this axis is u^T M p.
+  Eigen::SparseMatrix<double> work_matrix() const;
+
   const RadialTable& table() const { return table_; }
   const LaneLayout& layout() const { return table_.layout(); }
   const TriangleMesh& mesh() const { return mesh_; }
@@ -72,6 +76,8 @@ class GalerkinAssembler {
   template <class T>
   void add_block_row(const SurfacePatch& y, const PatchBlock<T>& block, int row,
                      GalerkinRows<T>& rows) const;
+  template <class F>
+  void for_each_work(int triangle, const F& f) const;
   void add_mass(const std::vector<int>& triangles, int first, int last, Eigen::MatrixXd& g) const;
 
   template <class T>
