@@ -141,6 +141,12 @@ TEST_CASE("both energies of a bent bar converge to those of the solid") {
   CHECK(fine_mass < 0.002);
 }
 
+TEST_CASE("the mass of a stocky box knows that its inside is deformed") {
+  const Vec3 size(1, 0.6, 0.5);
+  const Solid solid(box(size, {8, 6, 4}));
+  CHECK(solid.kinetic(solid.at_nodes(bending)) == Approx(kinetic_of_bending(size)).epsilon(0.004));
+}
+
 TEST_CASE("deformations of a ball have positive energies") {
   const Solid solid(icosphere(2, 0.5));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> stiffness(solid.energies.stiffness),
