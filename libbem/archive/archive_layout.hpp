@@ -49,6 +49,13 @@ inline const char* matrix_unit(SpatialMethod method, const std::string& name) {
 /// Group of the stiffness D(0) of the inertial form.
 inline constexpr char kStiffness[] = "/matrices/stiffness";
 
+/// Groups of the energies, and the dataset of such a family of one matrix.
+inline constexpr char kEnergyStiffness[] = "/matrices/energy_stiffness";
+inline constexpr char kEnergyMass[] = "/matrices/energy_mass";
+inline FamilyPlace single_place(const char* group) {
+  return {group, {std::string(group) + "/real"}};
+}
+
 /// The datasets of an uncompressed family of lags, in the order of their lag indices.
 inline std::vector<std::string> lag_paths(const std::string& matrix, int history_length,
                                           int components) {

@@ -79,6 +79,10 @@ BodyModel Archive::load(bool tractions, const Progress& progress) const {
   }
   model.h = load(lags_path("h"));
   if (is_inertial()) model.stiffness = load(kStiffness);
+  if (has_energies()) {
+    model.energy_stiffness = load(kEnergyStiffness);
+    model.energy_mass = load(kEnergyMass);
+  }
   if (tractions) model.g = load(lags_path("g"));
   model.balance = load_balance(kBalancePath);
   model.traction_balance = load_balance(kTractionBalancePath);

@@ -255,7 +255,10 @@ std::vector<Archive::PlacedFamily> Archive::families() const {
       families.push_back({{initial_path(matrix, i), initial_paths(matrix, i, is_paired(i) ? 2 : 1)},
                           of_tractions});
   }
-  if (is_inertial()) families.push_back({{kStiffness, {std::string(kStiffness) + "/real"}}, false});
+  if (is_inertial()) families.push_back({single_place(kStiffness), false});
+  if (has_energies())
+    for (const char* group : {kEnergyStiffness, kEnergyMass})
+      families.push_back({single_place(group), false});
   for (bool of_tractions : {false, true}) {
     if (discretisation_.history_length == 0 || (of_tractions && !tractions)) break;
     const char* matrix = of_tractions ? "g" : "h";

@@ -60,6 +60,8 @@ class Archive {
   BodyForce load_body_force(const char* name) const;
   /// Whether it has the columns of the centrifugal force; archives of older programs do not.
   bool has_centrifugal() const;
+  /// Whether it has BodyModel::energy_stiffness and energy_mass.
+  bool has_energies() const;
   /// Whether lags of h multiply accelerations, see BodyModel::stiffness.
   bool is_inertial() const {
     return discretisation_.is_galerkin() && discretisation_.history_length > 0;

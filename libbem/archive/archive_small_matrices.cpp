@@ -37,6 +37,10 @@ bool Archive::has_centrifugal() const {
   return file_.exists(initial_path(kCentrifugal, 0));
 }
 
+bool Archive::has_energies() const {
+  return file_.exists(kEnergyStiffness);
+}
+
 BodyForce Archive::load_body_force(const char* name) const {
   BodyForce force;
   const std::size_t n = unknowns(), components = lag_components();

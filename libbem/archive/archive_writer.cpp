@@ -29,7 +29,8 @@ std::vector<const MatrixFamily*> large_families(const BodyModel& model) {
   for (const auto* group :
        {&model.inverse, &model.traction_response, &model.initial_h, &model.initial_g})
     for (const auto& family : *group) families.push_back(family.get());
-  for (const auto* family : {model.h.get(), model.g.get(), model.stiffness.get()})
+  for (const auto* family : {model.h.get(), model.g.get(), model.stiffness.get(),
+                             model.energy_stiffness.get(), model.energy_mass.get()})
     if (family) families.push_back(family);
   return families;
 }
@@ -223,9 +224,14 @@ void write_matrices(Hdf5File& file, const BodyModel& model, const Progress& prog
   };
   if (model.h) write_lags("h", *model.h);
   if (model.g) write_lags("g", *model.g);
-  if (!model.stiffness) return;
-  writer.write({kStiffness, {std::string(kStiffness) + "/real"}}, *model.stiffness);
-  file.set_attribute(kStiffness, "unit", "N/m");
+  const auto write_single = [&](const char* group, const MatrixFamily* family, const char* unit) {
+    if (!family) return;
+    writer.write(single_place(group), *family);
+    file.set_attribute(group, "unit", unit);
+  };
+  write_single(kStiffness, model.stiffness.get(), "N/m");
+  write_single(kEnergyStiffness, model.energy_stiffness.get(), "N/m");
+  write_single(kEnergyMass, model.energy_mass.get(), "kg");
 }
 
 void check_complete(const BodyModel& model) {
@@ -262,7 +268,7 @@ double archive_bytes(const BodyGeometry& geometry, const PrecomputeOptions& opti
   const Discretisation& d = options.discretisation;
   if (options.kind == ModelKind::rigid) return overhead_bytes(geometry, 0);
   const double lags = d.history_length * static_cast<double>(d.scheme.lag_components().size());
-  const double kinds = options.loads == Loads::none ? 1 : 2;
+  const double kinds = (options.loads == Loads::none ? 1 : 2) + (options.energies ? 1 : 0);
   const Codec& codec = *options.codec.codec;
   if (!codec.is_sampled()) return stored + overhead_bytes(geometry, kinds * lags);
   const double matrices = kinds * (lags + d.scheme.initial_components().size() * 2.0);

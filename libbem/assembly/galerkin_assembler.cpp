@@ -184,22 +184,38 @@ void GalerkinAssembler::add_block_row(const SurfacePatch& y, const PatchBlock<T>
   add(18 * stride, block.strain.data() + own * 18 * stride, &rows.strain[row * 18 * stride]);
 }
 
+/// f(node, corner's node, int phi~_node L_corner) for the triangle.
+template <class F>
+void GalerkinAssembler::for_each_work(int triangle, const F& f) const {
+  const PairTractions mass = mass_matrix(pairs_.quadrature().area(triangle));
+  const TriangleBasis& basis = bases_[triangle];
+  for (std::size_t k = 0; k < basis.vertices.size(); ++k)
+    for (int j = 0; j < 3; ++j) {
+      double sum = 0;
+      for (int a = 0; a < 6; ++a) sum += basis.weights[k][a] * mass(3 * a, 3 * j);
+      f(basis.vertices[k], mesh_.triangles[triangle][j], sum);
+    }
+}
+
 template <class T>
 void GalerkinAssembler::add_mass(const std::vector<int>& triangles, GalerkinRows<T>& rows) const {
-  for (int t : triangles) {
-    const PairTractions mass = mass_matrix(pairs_.quadrature().area(t));
-    for (std::size_t k = 0; k < bases_[t].vertices.size(); ++k) {
-      const int node = bases_[t].vertices[k];
-      if (node < rows.first || node >= rows.last) continue;
-      for (int j = 0; j < 3; ++j) {
-        double sum = 0;
-        for (int a = 0; a < 6; ++a) sum += bases_[t].weights[k][a] * mass(3 * a, 3 * j);
-        const int row = node - rows.first, column = mesh_.triangles[t][j];
-        if (!rows.part(row).g.holds(column)) continue;
-        for (int e : {0, 4, 8}) rows.static_g_block(row, column)[e] += 0.5 * sum;
-      }
-    }
-  }
+  for (int t : triangles)
+    for_each_work(t, [&](int node, int corner, double value) {
+      const int row = node - rows.first;
+      if (row < 0 || node >= rows.last || !rows.part(row).g.holds(corner)) return;
+      for (int e : {0, 4, 8}) rows.static_g_block(row, corner)[e] += 0.5 * value;
+    });
+}
+
+Eigen::SparseMatrix<double> GalerkinAssembler::work_matrix() const {
+  const auto n = static_cast<Eigen::Index>(mesh_.vertices.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
+    for_each_work(
+        t, [&](int node, int corner, double value) { entries.emplace_back(node, corner, value); });
+  Eigen::SparseMatrix<double> out(n, n);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
 }
 
 }  // namespace bem

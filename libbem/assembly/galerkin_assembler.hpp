@@ -30,6 +30,10 @@ class GalerkinAssembler {
   /// as those of G.
   std::vector<Eigen::MatrixXd> assemble_loads(const std::vector<PanelLoad>& loads) const;
 
+  /// M = int phi~_i L_j of all nodes [m^2], N x N: the work of nodal tractions p of an axis on
+  /// displacements u of this axis is u^T M p.
+  Eigen::SparseMatrix<double> work_matrix() const;
+
   const RadialTable& table() const { return table_; }
   const LaneTable<float>& narrow_table() const { return narrow_table_; }
   const PairIntegrals& pairs() const { return pairs_; }
@@ -50,6 +54,8 @@ class GalerkinAssembler {
   template <class T>
   void add_block_row(const SurfacePatch& y, const PatchBlock<T>& block, int row,
                      GalerkinRows<T>& rows) const;
+  template <class F>
+  void for_each_work(int triangle, const F& f) const;
   template <class T>
   void add_mass(const std::vector<int>& triangles, GalerkinRows<T>& rows) const;
 

@@ -1,6 +1,16 @@
 #include "dynamics/body_output.hpp"
 
+#include "compress/complex_product.hpp"
+
 namespace bem {
+namespace {
+
+/// x^T a x/2 of a matrix that is stored as a family of its own.
+double half_square(const MatrixFamily& a, const Eigen::VectorXd& x) {
+  return 0.5 * x.dot(multiply_real(a, x).col(0));
+}
+
+}  // namespace
 
 /// Values of nodes at the vertices of the input mesh. Vertices that no triangle uses go with the
 /// frame: `loose` has their values by their places from the centre of mass.
@@ -15,6 +25,25 @@ std::vector<Vec3> BodyOutput::at_vertices(const std::vector<Vec3>& nodes,
     out.push_back(node < 0 ? loose(g.input.vertices[v] - g.mass.centre) : nodes[node]);
   }
   return out;
+}
+
+bool BodyOutput::has_energies() const {
+  return body_.is_rigid() || body_.model().has_energies();
+}
+
+double BodyOutput::elastic_energy() const {
+  if (body_.is_rigid()) return 0;
+  return half_square(*body_.model().energy_stiffness, body_.displacement());
+}
+
+double BodyOutput::kinetic_energy() const {
+  if (!body_.has_inertia()) return 0;
+  const RigidFrame& frame = body_.frame();
+  const Vec3 turn = frame.rotation().transpose() * frame.angular_velocity();  // body axes
+  const double rigid = 0.5 * frame.mass() * frame.velocity().squaredNorm() +
+                       0.5 * turn.dot(body_.model().geometry.mass.inertia * turn);
+  if (body_.is_rigid() || body_.model().kind == ModelKind::quasistatic) return rigid;
+  return rigid + half_square(*body_.model().energy_mass, body_.elastic()->velocity());
 }
 
 Impulses BodyOutput::impulses() const {

@@ -23,6 +23,14 @@ class BodyOutput {
   std::vector<Vec3> node_tractions() const;
   /// Stress tensors [Pa] at the nodes, world axes. `surface`: of the body's nodes and material.
   StressField node_stress(const SurfaceStress& surface) const;
+  /// Whether the energies are known: of rigid bodies, and where the archive has their matrices.
+  bool has_energies() const;
+  /// Of the deformation [J], 0 for a rigid body; has_energies().
+  double elastic_energy() const;
+  /// Of frame and vibration [J], to second order in the displacements: m v^2/2 + w I w/2 of the
+  /// frame, and u'^T mass u'/2 of the displacements u in it (model/energy_matrices.hpp), which have
+  /// no momentum of their own. Quasi-static deformations have none. has_energies().
+  double kinetic_energy() const;
   /// Impulses of gravity, loads and window in the step that Body::update() has computed.
   Impulses impulses() const;
 

@@ -47,7 +47,10 @@ struct BodyModel {
   ///   model/motion_history.hpp.
   std::unique_ptr<MatrixFamily> h, g;
   std::unique_ptr<MatrixFamily> stiffness;  ///< D(0) [N/m], one matrix; of the inertial form
-  std::vector<Eigen::MatrixXd> body_force;  ///< [D_k Q_k], 3N x 6, lags >= 1
+  /// Symmetric matrices of EnergyMatrices (model/energy_matrices.hpp) [N/m], [kg]; null if they
+  /// were not asked for.
+  std::unique_ptr<MatrixFamily> energy_stiffness, energy_mass;
+  std::vector<Eigen::MatrixXd> body_force;           ///< [D_k Q_k], 3N x 6, lags >= 1
   std::vector<Eigen::MatrixXcd> initial_body_force;  ///< [D_0 Q_0] by initial component, 3N x 6
   /// The same for body forces rho B y with a symmetric matrix B, by its entries xx xy xz yy yz zz
   /// (M7): the centrifugal force. Empty in archives that older programs have made.
@@ -69,6 +72,7 @@ struct BodyModel {
   ModelReport report;
 
   bool has_centrifugal() const { return !initial_centrifugal.empty(); }
+  bool has_energies() const { return energy_stiffness != nullptr; }
   bool has_history() const { return discretisation.history_length > 0; }
   bool is_iterative() const { return !initial_h.empty(); }
   InverseKind inverse_kind() const {

@@ -15,20 +15,21 @@ namespace {
 /// Entries of a row: inertia and traction kernel in the lanes, and their static parts.
 double bytes_per_row(int n, const LaneLayout& layout, AssemblyPrecision precision) {
   const double entry = precision == AssemblyPrecision::single ? sizeof(float) : sizeof(double);
-  return 18.0 * n * (layout.count() * entry + sizeof(double));
-}
-
-/// Rows of test functions, of n nodes, that are assembled together: as many as have room, so that
-/// few triangles are gone through again for the next ones.
-int most_rows_in_memory(int n, const LaneLayout& layout, AssemblyPrecision precision) {
-  constexpr double kMostBytes = 2e9;
-  return static_cast<int>(std::min<double>(n, kMostBytes / bytes_per_row(n, layout, precision)));
+  constexpr int kPadding = LaneTable<double>::kLanePadding;
+  const int padded = (layout.count() + kPadding - 1) / kPadding * kPadding;
+  return 18.0 * n * (padded * entry + sizeof(double));
 }
 
 }  // namespace
 
+/// As many as have room, so that few triangles are gone through again for the next ones.
+int galerkin_rows_together(int n, const LaneLayout& layout, AssemblyPrecision precision) {
+  constexpr double kMostBytes = 2e9;
+  return static_cast<int>(std::min<double>(n, kMostBytes / bytes_per_row(n, layout, precision)));
+}
+
 double galerkin_row_bytes(int n, const LaneLayout& layout, AssemblyPrecision precision) {
-  return most_rows_in_memory(n, layout, precision) * bytes_per_row(n, layout, precision);
+  return galerkin_rows_together(n, layout, precision) * bytes_per_row(n, layout, precision);
 }
 
 template <class T>
@@ -60,8 +61,8 @@ void GalerkinSlabs<T>::with_rows(int first, int last, const F& f) {
 
 template <class T>
 int GalerkinSlabs<T>::rows_in_memory() const {
-  return most_rows_in_memory(static_cast<int>(this->model_.nodes()), assembler_.layout(),
-                             precision_);
+  return galerkin_rows_together(static_cast<int>(this->model_.nodes()), assembler_.layout(),
+                                precision_);
 }
 
 /// Columns that are too close to a slab for factors are computed in full, and what other columns
@@ -166,8 +167,9 @@ void GalerkinSlabs<T>::load_rows(int first, int last, GalerkinRows<S>& rows) con
     for (const PartedSlab& slab : parted_) {
       if (slab.last <= first) continue;
       RowColumns columns = near_columns(slab);
-      bytes += 9.0 * columns.rows() * (columns.h.count + columns.g.count) *
-               (assembler_.layout().count() * sizeof(S) + sizeof(double));
+      bytes +=
+          9.0 * columns.rows() * (columns.h.count + columns.g.count) *
+          static_cast<double>(assembler_.narrow_table().padded_lanes * sizeof(S) + sizeof(double));
       if (slab.first >= last && bytes > kMostBytes) break;
       wanted.push_back(std::move(columns));
     }

@@ -6,7 +6,8 @@
 
 namespace bem {
 
-/// What the rows of n nodes take that are assembled together [bytes].
+/// Rows of test functions, of n nodes, that are assembled together, and what they take [bytes].
+int galerkin_rows_together(int n, const LaneLayout& layout, AssemblyPrecision precision);
 double galerkin_row_bytes(int n, const LaneLayout& layout, AssemblyPrecision precision);
 
 /// Matrices of the Galerkin method: rows are those of test functions that reach over two rings of

@@ -1,6 +1,7 @@
 #include "model/memory_estimate.hpp"
 
 #include "base/parallel.hpp"
+#include "model/energy_matrices.hpp"
 #include "model/galerkin_slabs.hpp"
 #include "model/model_assembly.hpp"
 
@@ -82,6 +83,11 @@ double compressed_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
                        steps * 2 * 9 * sizeof(float) * nodes * nodes / (1 + nodes / independent);
 }
 
+/// Symmetric matrices without lags, stored as they are but for what is far apart.
+double compressed_energy_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
+  return o.energies ? square(g) * sizeof(float) : 0;
+}
+
 constexpr double kProgram = 4.5e7;  ///< what the program takes beside its matrices
 
 double bytes_of_entry(const PrecomputeOptions& o) {
@@ -115,24 +121,8 @@ double compressed_peak(const BodyGeometry& g, const PrecomputeOptions& o, double
   return kProgram + stored + dense + slab_bytes(g, o, slabs) + work + row_buffer_bytes(g, o);
 }
 
-}  // namespace
-
-double stored_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
-  if (o.kind == ModelKind::rigid) return 0;
-  if (o.codec.codec->is_sampled()) return compressed_bytes(g, o) + small_bytes(g, o);
-  const Counts c = counts_of(o);
-  const bool inertial = c.lags > 0 && o.discretisation.is_galerkin();
-  return small_bytes(g, o) +
-         o.codec.codec->expected_bytes(
-             square(g) * (c.kinds * (c.lags + c.parts) + (inertial ? 1 : 0)), o.codec);
-}
-
-double certain_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
-  return o.codec.codec->is_sampled() ? 0 : stored_bytes(g, o);
-}
-
-double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, double stored) {
-  if (o.kind == ModelKind::rigid) return 0;
+/// Of assembly and inversion.
+double peak_of_steps(const BodyGeometry& g, const PrecomputeOptions& o, double stored) {
   if (o.codec.codec->is_sampled()) return compressed_peak(g, o, stored);
   const Counts c = counts_of(o);
   const double entry = bytes_of_entry(o);
@@ -143,6 +133,32 @@ double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, double stor
   return kProgram + small_bytes(g, o) +
          std::max(lags + initial + square(g) * entry * c.parts + row_buffer_bytes(g, o) + slab,
                   stored);
+}
+
+}  // namespace
+
+double stored_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
+  if (o.kind == ModelKind::rigid) return 0;
+  if (o.codec.codec->is_sampled())
+    return compressed_bytes(g, o) + compressed_energy_bytes(g, o) + small_bytes(g, o);
+  const Counts c = counts_of(o);
+  const bool inertial = c.lags > 0 && o.discretisation.is_galerkin();
+  return small_bytes(g, o) +
+         o.codec.codec->expected_bytes(
+             square(g) * (c.kinds * (c.lags + c.parts) + (inertial ? 1 : 0) + (o.energies ? 2 : 0)),
+             o.codec);
+}
+
+double certain_bytes(const BodyGeometry& g, const PrecomputeOptions& o) {
+  return o.codec.codec->is_sampled() ? 0 : stored_bytes(g, o);
+}
+
+double peak_bytes(const BodyGeometry& g, const PrecomputeOptions& o, double stored) {
+  if (o.kind == ModelKind::rigid) return 0;
+  const double steps = peak_of_steps(g, o, stored);
+  if (!o.energies) return steps;
+  return std::max(steps,
+                  kProgram + stored + energy_bytes(static_cast<int>(g.nodes.vertices.size())));
 }
 
 }  // namespace bem

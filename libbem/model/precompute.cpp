@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "mesh/local_thickness.hpp"
 #include "model/balance.hpp"
+#include "model/energy_families.hpp"
 #include "model/growth.hpp"
 #include "model/model_assembly.hpp"
 
@@ -77,6 +78,7 @@ BodyModel precompute(BodyGeometry geometry, const PrecomputeOptions& options,
   assemble_model(model, options, progress);
   if (progress) progress("static balance", 0);
   compute_balance(model);
+  if (options.energies) add_energies(model, options, progress);
   model.window = options.window > 0 ? options.window : 1;
   if (options.measure_growth && model.has_history()) {
     if (progress) progress("growth factor", 0);

@@ -19,6 +19,7 @@ struct PrecomputeOptions {
   std::vector<int> loaded_nodes;  ///< of Loads::some, ascending; needs a sampled codec
   double window = 0;              ///< 0: the weakest that keeps the measured growth at or below 1
   bool measure_growth = true;
+  bool energies = false;  ///< of the Galerkin method with a dense inverse: BodyModel::energy_mass
 };
 
 /// The codec with the tolerance that a body needs. Errors of a codec are relative to a whole

@@ -110,14 +110,12 @@ class SampledBuilders {
   MatrixSlab<float> sample_;
 };
 
-/// The eigenvalue of D(0) [N/m] of the softest quadratic displacement, bending if the body is
-/// slender or thin; a little too large.
+}  // namespace
+
 double least_stiffness(const BodyModel& model) {
   return 2 * model.discretisation.material.shear_modulus /
          (static_cast<double>(model.nodes()) * softness(model.geometry.nodes));
 }
-
-}  // namespace
 
 AssemblyTargets<float> sampled_targets(SlabAssembler<float>& assembler,
                                        const std::vector<Slab>& slabs, const BodyModel& model,

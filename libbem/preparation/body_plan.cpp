@@ -6,6 +6,7 @@
 #include "mesh/mesh_io.hpp"
 #include "mesh/solids.hpp"
 #include "model/defaults.hpp"
+#include "model/energy_matrices.hpp"
 #include "model/memory_estimate.hpp"
 #include "preparation/time_step.hpp"
 #include "repair/repair.hpp"
@@ -74,6 +75,7 @@ class Planner {
   void settle_method(const Surface& surface);
   void choose_discretisation();
   void choose_storage();
+  void check_energies() const;
   void load(const std::vector<Selection>& selections);
   std::vector<Selection> read_load_file() const;
   double time_step();
@@ -121,6 +123,11 @@ void Planner::settle_method(const Surface& surface) {
     return;
   const std::string galerkin = text("discretisation", "galerkin"),
                     collocation = text("discretisation", "collocation");
+  if (settings().energies)
+    throw Error(ErrorCode::invalid_input,
+                inputs_.mesh + ": the body has a cavity inside, for which there is no " + galerkin +
+                    " and there are no energies: leave " + name("energies") +
+                    " away, or fill the cavity");
   if (settings().method)
     throw Error(ErrorCode::invalid_input,
                 inputs_.mesh + ": the body has a cavity inside, whose place " + galerkin +
@@ -137,6 +144,7 @@ void Planner::choose_discretisation() {
   d.quadrature_tolerance = settings().quadrature_tolerance;
   d.damping = settings().damping;
   plan_.options.window = settings().window;
+  plan_.options.energies = settings().energies;
   plan_.options.measure_growth = !d.is_galerkin() || settings().measure_growth;
 }
 
@@ -144,12 +152,29 @@ void Planner::choose_storage() {
   PrecomputeOptions& options = plan_.options;
   options.codec = settings().codec_options();
   options.inverse = settings().inverse.value_or(default_inverse(plan_.geometry, options.kind));
+  check_energies();
   if (settings().loads == "none")
     options.loads = Loads::none;
   else if (settings().has_load_file())
     load(read_load_file());
   else if (!inputs_.loaded.empty())
     load(inputs_.loaded);
+}
+
+void Planner::check_energies() const {
+  if (!plan_.options.energies) return;
+  if (plan_.options.inverse != InverseKind::dense)
+    throw Error(ErrorCode::invalid_input,
+                inputs_.mesh + ": " + count_text(plan_.geometry.nodes.vertices.size(), "node") +
+                    " are too many for " + name("energies") + ", which take a dense inverse: use " +
+                    text("inverse", "dense") + ", or a coarser mesh (" + name("nodes") + ")");
+  const double nu = inputs_.material.poisson_ratio;
+  if (nu > kMostPoissonRatioOfEnergies)
+    throw Error(ErrorCode::invalid_input, inputs_.material_name + ": a Poisson ratio of " +
+                                              to_text(nu) + " is too large for " +
+                                              name("energies") + ": use at most " +
+                                              to_text(kMostPoissonRatioOfEnergies) + ", or leave " +
+                                              name("energies") + " away");
 }
 
 std::vector<Selection> Planner::read_load_file() const {

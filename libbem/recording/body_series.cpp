@@ -14,11 +14,14 @@ double volume_ratio(const Body& body) {
 
 }  // namespace
 
-std::vector<FrameQuantity> body_series() {
-  return {
+std::vector<FrameQuantity> body_series(bool energies) {
+  std::vector<FrameQuantity> out = {
       {"centre", "m", 3},           {"momentum", "kg m/s", 3}, {"angular_momentum", "kg m^2/s", 3},
       {"potential_energy", "J", 1}, {"volume_ratio", "1", 1},  {"contact_force", "N", 3},
       {"contact_torque", "N m", 3}};
+  if (energies)
+    for (const char* name : {"kinetic_energy", "elastic_energy"}) out.push_back({name, "J", 1});
+  return out;
 }
 
 std::vector<double> series_values(const Body& body, const Vec3& contact_force,
@@ -33,6 +36,10 @@ std::vector<double> series_values(const Body& body, const Vec3& contact_force,
   out.push_back(volume_ratio(body));
   add(contact_force);
   add(contact_torque);
+  const BodyOutput output(body);
+  if (!output.has_energies()) return out;
+  out.push_back(output.kinetic_energy());
+  out.push_back(output.elastic_energy());
   return out;
 }
 

@@ -99,7 +99,7 @@ void Recorder::add_body(const ShownBody& body, std::size_t index) {
       shown.fields.push_back(kStress);
       shown.fields.push_back(kVonMises);
     }
-    shown.series = body_series();
+    shown.series = body_series(body.energies);
     shown.index = index;
     shown.mass = body.geometry->mass.mass;
     shown.archive_digest = body.archive_digest;

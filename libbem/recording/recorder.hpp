@@ -21,6 +21,7 @@ struct ShownBody {
   std::shared_ptr<const BoundMesh> render = nullptr;  ///< a mesh to show in place of the surface
   /// The render mesh is the simulated surface, with faces and texture coordinates as in its file.
   bool shows_surface = false;
+  bool energies = false;  ///< whether they are known, as BodyOutput::has_energies()
 };
 
 /// An obstacle; a plane has no surface.

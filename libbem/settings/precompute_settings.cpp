@@ -116,6 +116,10 @@ std::vector<Setting> make_settings() {
        "with galerkin, too, measure how much motions of the free body grow per step (collocation "
        "always does)",
        [](Settings& s, Text, Text text) { s.measure_growth = text == "true"; }},
+      {"energies", Kind::flag, true, "",
+       "with galerkin and a dense inverse: matrices by which trajectories get the kinetic and the "
+       "elastic energy of the body",
+       [](Settings& s, Text, Text text) { s.energies = text == "true"; }},
       {"window", Kind::text, true, "q",
        "factor 0 < q <= 1 on the weights per lag, 1 for none; auto: 1, but the weakest that makes "
        "growth <= 1 where growth is measured (auto)",
@@ -199,6 +203,16 @@ void check_static(const Settings& s, SettingStyle style) {
            setting_name(style, "measure-growth") + " away");
 }
 
+/// Refuses energies where there are none.
+void check_energies(const Settings& s, SettingStyle style) {
+  if (!s.energies) return;
+  const std::string name = setting_name(style, "energies") + " needs ";
+  if (s.method == SpatialMethod::collocation)
+    refuse(name + setting_text(style, "discretisation", choice_name(SpatialMethod::galerkin)));
+  if (s.inverse == InverseKind::iterative)
+    refuse(name + setting_text(style, "inverse", choice_name(InverseKind::dense)));
+}
+
 /// Refuses what a codec does not know.
 void check_codec(const Settings& s, SettingStyle style) {
   const auto name = [&](const char* setting) { return setting_name(style, setting); };
@@ -252,6 +266,7 @@ std::string codecs_text(SettingStyle style, bool (*property)(const Codec&)) {
 void check_settings(const PrecomputeSettings& s, SettingStyle style) {
   check_codec(s, style);
   if (s.model == ModelKind::quasistatic) check_static(s, style);
+  if (s.model != ModelKind::rigid) check_energies(s, style);
   if (s.history && s.history_tolerance)
     refuse("use either " + setting_name(style, "history") + " or " +
            setting_name(style, "history-tol"));
@@ -287,6 +302,7 @@ std::string PrecomputeSettings::canonical_text() const {
   const CodecOptions codecs = codec_options();
   text += " " + codecs.codec->options_text(codecs);
   if (damping.time > 0) text += " --damping kelvin_voigt:" + to_text(damping.time);
+  if (energies) text += " --energies";
   if (inverse) text += " --inverse " + choice_name(*inverse);
   if (!loads.empty() && loads != "all") text += " --loads " + loads;
   const std::optional<double> corners = corner_angle();

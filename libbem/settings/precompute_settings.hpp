@@ -26,6 +26,7 @@ struct PrecomputeSettings {
   std::string scheme;  ///< empty: radau2, and bdf1 for the static model
   std::optional<SpatialMethod> method;
   bool measure_growth = false;
+  bool energies = false;
   double window = 0;  ///< as PrecomputeOptions: 0 is "auto"
   std::optional<double> history_tolerance;
   std::optional<int> history;

@@ -60,13 +60,15 @@ py::object value_of(const FrameQuantity& quantity, const double*& numbers) {
 }
 
 py::dict series_of(Session& session, std::size_t body) {
+  bool energies = false;
   const std::vector<double> values = session.with([&](const Simulation& simulation) {
+    energies = BodyOutput(simulation.bodies().at(body)).has_energies();
     return body_series_of(simulation.bodies().at(body), static_cast<int>(body),
                           contact_frames(simulation));
   });
   py::dict out;
   const double* numbers = values.data();
-  for (const FrameQuantity& quantity : body_series())
+  for (const FrameQuantity& quantity : body_series(energies))
     out[py::str(quantity.name)] = value_of(quantity, numbers);
   return out;
 }

@@ -16,6 +16,7 @@ BEMSIM = os.environ["BEMSIM"]
 LIMIT = 20  # seconds that no run here may take
 DYNAMIC = ["--dt", "0.01", "--scheme", "bdf1", "--history", "2", "--window", "0.9"]
 KINDS = {"lowrank": DYNAMIC, "none": [*DYNAMIC, "--codec", "none"], "haar": [*DYNAMIC, "--codec", "haar"],
+         "energies": [*DYNAMIC, "--energies"],
          "iterative": [*DYNAMIC, "--inverse", "iterative", "--codec", "none"], "static": ["--model", "static"],
          "rigid": ["--model", "rigid"]}
 

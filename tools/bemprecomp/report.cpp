@@ -121,6 +121,7 @@ void print_matrices(Table& table, const Archive& archive) {
                  ? std::string(", ") + choice_name(*archive.codec().precision())
                  : "");
   print_storage(table, archive);
+  if (archive.has_energies()) table.line("energies", "matrices of kinetic and elastic energy");
   table.line("quadrature", "tolerance ", d.quadrature_tolerance, ", row sums repaired by ",
              r.row_sum_residual, ", rotation residual ", r.rotation_residual);
   if (!archive.codec().is_lossless()) print_codec_errors(table, archive);

@@ -72,6 +72,10 @@ std::vector<NamedFamily> families_of(BodyModel& model) {
   std::vector<NamedFamily> out = {{"h", of_h, &model.h, &e.h}};
   if (model.g) out.push_back({"g", MatrixForm::general, &model.g, &e.g});
   if (model.stiffness) out.push_back({"stiffness", of_h, &model.stiffness, &e.stiffness});
+  if (model.has_energies()) {
+    out.push_back({"energy_stiffness", MatrixForm::symmetric, &model.energy_stiffness, nullptr});
+    out.push_back({"energy_mass", MatrixForm::symmetric, &model.energy_mass, nullptr});
+  }
   const auto add = [&](const char* name, MatrixForm form, auto& families, double& error) {
     for (auto& family : families) out.push_back({name, form, &family, &error});
   };
@@ -86,10 +90,12 @@ void recode(BodyModel& model, const CodecOptions& given) {
   const CodecOptions options = codec_of_body(model.geometry, model.discretisation.method, given);
   for (const NamedFamily& named : families_of(model)) {
     double error = 0;
-    const bool stiffness = named.family == &model.stiffness;
+    const bool stiffness = named.family == &model.stiffness ||
+                           named.family == &model.energy_stiffness ||
+                           named.family == &model.energy_mass;
     *named.family = recode(**named.family, named.form, model.geometry.nodes.vertices,
                            stiffness ? stiffness_codec(options) : options, error);
-    *named.error = std::max(*named.error, error);
+    if (named.error) *named.error = std::max(*named.error, error);
   }
   model.codec = options.codec;
   compute_balance(model);

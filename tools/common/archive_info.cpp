@@ -95,6 +95,7 @@ Json info_json(const Archive& archive) {
                       {"count", archive.matrix_paths().size()},
                       {"inverse", choice_name(archive.inverse_kind())},
                       {"loads", choice_name(archive.loads())}};
+  if (archive.has_energies()) json["matrices"]["energies"] = true;
   if (archive.loads() == Loads::some)
     json["matrices"]["loaded_nodes"] = archive.loaded_nodes().size();
   json["report"] = report_json(archive.report());

@@ -3,6 +3,7 @@
 #include "files/hdf5.hpp"
 #include "support/archives.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include <catch2/catch.hpp>
@@ -70,6 +71,20 @@ void check_small_parts(const BodyModel& a, const BodyModel& b) {
   CHECK(a.report.rotation_residual == b.report.rotation_residual);
   CHECK(a.report.condition == b.report.condition);
   CHECK(a.report.growth == b.report.growth);
+}
+
+/// Of the Galerkin method, with energies.
+BodyModel energetic_model(const CodecOptions& codec) {
+  PrecomputeOptions options;
+  options.discretisation.material = material(1000, 1e5, 0.3);
+  options.discretisation.scheme = Scheme::parse("bdf1");
+  options.discretisation.method = SpatialMethod::galerkin;
+  options.discretisation.dt = 0.01;
+  options.discretisation.history_length = 4;
+  options.codec = codec;
+  options.measure_growth = false;
+  options.energies = true;
+  return precompute(small_body(), options);
 }
 
 }  // namespace
@@ -158,6 +173,49 @@ TEST_CASE("A Haar compressed archive whose tables do not fit its data is refused
     CHECK(code == 4);
     CHECK(message.find("/matrices/h") != std::string::npos);
   }
+}
+
+TEST_CASE("Energies come back from an archive, which is valid without them") {
+  const test::TemporaryFolder folder("energies");
+  const std::string codec = GENERATE("none", "haar", "lowrank");
+  const BodyModel model = energetic_model(CodecOptions(codec_named(codec)));
+  write_archive(folder / "a.bem", model, provenance(), false);
+  const Archive archive(folder / "a.bem");
+  CHECK(archive.has_energies());
+  CHECK_NOTHROW(archive.check_matrices());
+  const BodyModel back = archive.load_motion_matrices();
+  REQUIRE(back.has_energies());
+  check_same(*model.energy_stiffness, *back.energy_stiffness);
+  check_same(*model.energy_mass, *back.energy_mass);
+  const std::vector<std::string> paths = archive.matrix_paths();
+  for (const char* name : {"stiffness", "mass"})
+    CHECK(std::count(paths.begin(), paths.end(),
+                     "/matrices/energy_" + std::string(name) + "/real") == 1);
+
+  write_archive(folder / "b.bem", small_model(), provenance(), false);
+  const Archive without(folder / "b.bem");
+  CHECK_FALSE(without.has_energies());
+  CHECK_FALSE(without.load_all().has_energies());
+}
+
+TEST_CASE("What a codec stores has the energies of smooth motions to 1e-4") {
+  const std::string codec = GENERATE("none", "haar", "lowrank");
+  const BodyModel exact = energetic_model(CodecOptions(codec_named("none", Precision::float64))),
+                  model = energetic_model(CodecOptions(codec_named(codec)));
+  const auto n = static_cast<Eigen::Index>(3 * model.nodes());
+  Eigen::VectorXd stretched(n);
+  for (Eigen::Index i = 0; i < n; i += 3) {
+    const Vec3& x = model.geometry.nodes.vertices[static_cast<std::size_t>(i / 3)];
+    stretched.segment<3>(i) = Vec3(x[0], -0.3 * x[1], 0.1 * x[0]);
+  }
+  const auto energy = [&](const MatrixFamily& family) {
+    return stretched.dot(full_matrix(family, 0) * stretched);
+  };
+  CHECK(energy(*model.energy_stiffness) == Approx(energy(*exact.energy_stiffness)).epsilon(1e-4));
+  CHECK(energy(*model.energy_mass) == Approx(energy(*exact.energy_mass)).epsilon(1e-4));
+  const Vec3 back(1, 2, 3);
+  CHECK((full_matrix(*model.energy_stiffness, 0) * back.replicate(n / 3, 1)).norm() <
+        1e-4 * full_matrix(*model.energy_stiffness, 0).norm());
 }
 
 TEST_CASE("Parts of an archive are those of the whole") {

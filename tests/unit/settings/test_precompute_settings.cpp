@@ -27,19 +27,13 @@ TEST_CASE("Settings without values are the defaults of bemprecomp", "[settings]"
 
 TEST_CASE("Every setting that determines matrices is in the canonical text", "[settings]") {
   const std::vector<std::pair<std::string, std::string>> values = {
-      {"scheme", "bdf2"},
-      {"discretisation", "collocation"},
-      {"window", "0.5"},
-      {"model", "static"},
-      {"history-tol", "0.001"},
-      {"history", "7"},
-      {"quadrature-tol", "1e-5"},
-      {"codec", "none"},
-      {"codec-tol", "0.01"},
-      {"inverse", "dense"},
-      {"loads", "none"},
-      {"corner-angle-deg", "33"},
-      {"damping", "kelvin_voigt:0.1"}};
+      {"scheme", "bdf2"},         {"discretisation", "collocation"},
+      {"window", "0.5"},          {"model", "static"},
+      {"history-tol", "0.001"},   {"history", "7"},
+      {"quadrature-tol", "1e-5"}, {"codec", "none"},
+      {"codec-tol", "0.01"},      {"inverse", "dense"},
+      {"energies", "true"},       {"loads", "none"},
+      {"corner-angle-deg", "33"}, {"damping", "kelvin_voigt:0.1"}};
   for (const auto& value : values) {
     INFO(value.first);
     CHECK(with({value}).canonical_text() != with({}).canonical_text());
@@ -73,4 +67,15 @@ TEST_CASE("Settings that do not belong together are refused in the reader's word
                     "--codec-tol belongs to --codec haar or --codec lowrank");
   CHECK_THROWS_WITH(check_settings(settings, SettingStyle::key),
                     "\"codec_tol\" belongs to \"codec\": \"haar\" or \"codec\": \"lowrank\"");
+}
+
+TEST_CASE("Energies need the Galerkin method and a dense inverse", "[settings]") {
+  CHECK_THROWS_WITH(check_settings(with({{"energies", "true"}, {"discretisation", "collocation"}}),
+                                   SettingStyle::option),
+                    "--energies needs --discretisation galerkin");
+  CHECK_THROWS_WITH(
+      check_settings(with({{"energies", "true"}, {"inverse", "iterative"}}), SettingStyle::key),
+      "\"energies\" needs \"inverse\": \"dense\"");
+  CHECK_NOTHROW(
+      check_settings(with({{"energies", "true"}, {"model", "static"}}), SettingStyle::key));
 }
