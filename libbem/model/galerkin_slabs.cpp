@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "base/symmetric_matrix.hpp"
 #include "model/rigid_projection.hpp"
+#include "model/slab_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,71 +66,6 @@ int GalerkinSlabs<T>::rows_in_memory() const {
                                 precision_);
 }
 
-/// Columns that are too close to a slab for factors are computed in full, and what other columns
-/// their blocks have is multiplied out.
-template <class T>
-typename GalerkinSlabs<T>::PartedSlab GalerkinSlabs<T>::part(const Slab& slab) const {
-  constexpr int kGroup = 16;  // columns that are near or far together
-  const int n = static_cast<int>(this->model_.nodes());
-  std::vector<char> near(n, 0), stored(n, 0);
-  for (int begin = 0; begin < n; begin += kGroup) {
-    const int end = std::min(n, begin + kGroup);
-    const bool holds = (end <= slab.row_begin || begin >= slab.row_end) &&
-                       far_field_->holds({slab.row_begin, slab.row_end}, {begin, end});
-    if (!holds) std::fill(near.begin() + begin, near.begin() + end, 1);
-  }
-  stored = near;
-  const auto is_stored = [&](const NodeBlock& b) {
-    return std::any_of(stored.begin() + b.column_begin, stored.begin() + b.column_end,
-                       [](char c) { return c != 0; });
-  };
-  std::vector<char> entire(slab.blocks.size(), 0);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
-      const NodeBlock& block = slab.blocks[b];
-      if (entire[b] != 0 || (block.far && !is_stored(block))) continue;
-      entire[b] = 1;
-      changed = true;
-      std::fill(stored.begin() + block.column_begin, stored.begin() + block.column_end, 1);
-    }
-  }
-  PartedSlab out{slab.row_begin, slab.row_end, {}, {}};
-  for (std::size_t b = 0; b < slab.blocks.size(); ++b) {
-    const NodeBlock& block = slab.blocks[b];
-    if (entire[b] == 0) {
-      out.distant.push_back(block);
-      continue;
-    }
-    NodeBlock run = block;
-    for (int begin = block.column_begin; begin < block.column_end; begin = run.column_end) {
-      run.column_begin = begin;
-      run.column_end = begin + 1;
-      while (run.column_end < block.column_end && near[run.column_end] == near[begin])
-        ++run.column_end;
-      if (near[begin] == 0) out.expanded.push_back(run);
-    }
-  }
-  return out;
-}
-
-template <class T>
-RowColumns GalerkinSlabs<T>::near_columns(const PartedSlab& slab) const {
-  std::vector<char> near(this->model_.nodes(), 1);
-  for (const auto* blocks : {&slab.distant, &slab.expanded})
-    for (const NodeBlock& b : *blocks)
-      std::fill(near.begin() + b.column_begin, near.begin() + b.column_end, 0);
-  return {slab.first, slab.last, ColumnPlaces(near, slab.first), ColumnPlaces(near, 0)};
-}
-
-template <class T>
-RowColumns GalerkinSlabs<T>::stored_columns(const PartedSlab& slab) const {
-  std::vector<char> stored(this->model_.nodes(), 1);
-  for (const NodeBlock& b : slab.distant)
-    std::fill(stored.begin() + b.column_begin, stored.begin() + b.column_end, 0);
-  return {slab.first, slab.last, ColumnPlaces(stored, slab.first), ColumnPlaces(stored, 0)};
-}
-
 template <class T>
 void GalerkinSlabs<T>::use_factors(const std::vector<Slab>& partition) {
   constexpr double kWorthIt = 0.3;  // of the entries
@@ -138,9 +74,8 @@ void GalerkinSlabs<T>::use_factors(const std::vector<Slab>& partition) {
                                           assembler_.pairs(), combination_, assembler_.layout());
   double entries = 0;
   for (const Slab& slab : partition) {
-    parted_.push_back(part(slab));
-    for (const auto* blocks : {&parted_.back().distant, &parted_.back().expanded})
-      for (const NodeBlock& b : *blocks) entries += static_cast<double>(b.rows()) * b.columns();
+    parted_.push_back(part_slab(slab, *far_field_, static_cast<int>(this->model_.nodes())));
+    entries += parted_.back().entries();
   }
   const double nodes = static_cast<double>(this->model_.nodes());
   if (entries >= kWorthIt * nodes * nodes) return;
@@ -150,7 +85,7 @@ void GalerkinSlabs<T>::use_factors(const std::vector<Slab>& partition) {
 
 /// What is known of the slab with these rows; null if it has no factors.
 template <class T>
-const typename GalerkinSlabs<T>::PartedSlab* GalerkinSlabs<T>::parted(int first, int last) const {
+const PartedSlab* GalerkinSlabs<T>::parted(int first, int last) const {
   for (const PartedSlab& slab : parted_)
     if (slab.first == first && slab.last == last) return &slab;
   return nullptr;
@@ -166,7 +101,7 @@ void GalerkinSlabs<T>::load_rows(int first, int last, GalerkinRows<S>& rows) con
     double bytes = 0;
     for (const PartedSlab& slab : parted_) {
       if (slab.last <= first) continue;
-      RowColumns columns = near_columns(slab);
+      RowColumns columns = slab.near_columns(static_cast<int>(this->model_.nodes()));
       bytes +=
           9.0 * columns.rows() * (columns.h.count + columns.g.count) *
           static_cast<double>(assembler_.narrow_table().padded_lanes * sizeof(S) + sizeof(double));
@@ -184,7 +119,7 @@ template <class T>
 void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
   const PartedSlab* const parts = parted(first, last);
   if (parts) {
-    RowColumns columns = stored_columns(*parts);
+    RowColumns columns = parts->stored_columns(static_cast<int>(this->model_.nodes()));
     this->prepare(first, last, std::move(columns.h), std::move(columns.g), slab);
   } else {
     this->prepare(first, last, slab);
@@ -207,33 +142,12 @@ void GalerkinSlabs<T>::assemble(int first, int last, MatrixSlab<T>& slab) {
   if (with_forces && is_inertial()) add_traction_moments(slab);
 }
 
-/// What there is to do for the distant and the expanded blocks of a slab.
-template <class T>
-std::vector<FarTask> GalerkinSlabs<T>::tasks_of(const PartedSlab& parted) const {
-  std::vector<FarTask> tasks;
-  for (const auto* blocks : {&parted.distant, &parted.expanded})
-    for (const NodeBlock& b : *blocks)
-      tasks.push_back({{b.row_begin, b.row_end},
-                       {b.column_begin, b.column_end},
-                       b.column_begin >= parted.last,
-                       &this->loaded_nodes(),
-                       {}});
-  // uniform strain acts on patches that the near columns do not reach, each once on every row
-  const RowColumns near = near_columns(parted);
-  for (const SurfacePatch& patch : assembler_.patches()) {
-    if (near.reaches(patch.nodes)) continue;
-    const int node = patch.hats.front();
-    for (FarTask& task : tasks)
-      if (node >= task.columns.begin && node < task.columns.end) task.strained.push_back(&patch);
-  }
-  return tasks;
-}
-
 /// The distant and the expanded blocks of a slab, and what they add to body forces.
 template <class T>
 void GalerkinSlabs<T>::assemble_factors(const PartedSlab& parted, bool with_forces,
                                         MatrixSlab<T>& slab) {
-  const std::vector<FarTask> tasks = tasks_of(parted);
+  const std::vector<FarTask> tasks = far_tasks(parted, assembler_.patches(), this->loaded_nodes(),
+                                               static_cast<int>(this->model_.nodes()));
   slab.far.resize(tasks.size());
   parallel_for(tasks.size(), [&](std::size_t b) {
     check_interruption();
@@ -241,7 +155,8 @@ void GalerkinSlabs<T>::assemble_factors(const PartedSlab& parted, bool with_forc
     slab.far[b] = precision_ == AssemblyPrecision::single
                       ? far_field_->factor(tasks[b], errors_, assembler_.narrow_table())
                       : far_field_->factor(tasks[b], errors_, assembler_.table().lanes());
-    if (b >= parted.distant.size()) multiply_out(slab.far[b], slab);
+    if (b >= parted.distant.size())
+      multiply_out(slab.far[b], this->model_.discretisation.scheme, slab);
   });
   for (FarBlock& block : slab.far) {
     if (with_forces) {
@@ -252,49 +167,6 @@ void GalerkinSlabs<T>::assemble_factors(const PartedSlab& parted, bool with_forc
     block.column_forces = {};
   }
   slab.far.resize(parted.distant.size());
-}
-
-/// The entries of a block, to where a slab has its columns.
-template <class T>
-void GalerkinSlabs<T>::multiply_out(const FarBlock& block, MatrixSlab<T>& slab) const {
-  const Eigen::Index row = 3 * (block.rows.begin - slab.first);
-  const auto set = [&](const FactoredMatrices& factors, std::size_t k, const ColumnPlaces& columns,
-                       auto& to) {
-    const Eigen::MatrixXf entries = factors.outputs * factors.inputs[k];
-    auto part =
-        to.block(row, 3 * columns.place[block.columns.begin], entries.rows(), entries.cols());
-    part = entries.cast<typename std::decay_t<decltype(to)>::Scalar>();
-  };
-  const std::size_t initial = slab.initial_h.size();
-  if (!block.stiffness.empty()) set(block.stiffness, 0, slab.h_columns, slab.stiffness);
-  for (std::size_t k = 0; k < block.inertia.inputs.size(); ++k) {
-    if (k < initial)
-      set(block.inertia, k, slab.h_columns, slab.initial_h[k]);
-    else
-      set(block.inertia, k, slab.h_columns, slab.h[k - initial]);
-  }
-  if (!block.inertia.empty()) add_stiffness(block, slab);
-  for (std::size_t k = 0; k < block.tractions.inputs.size(); ++k) {
-    if (k < initial)
-      set(block.tractions, k, slab.g_columns, slab.initial_g[k]);
-    else
-      set(block.tractions, k, slab.g_columns, slab.g[k - initial]);
-  }
-}
-
-/// To the real parts of lag 0 of an expanded block.
-template <class T>
-void GalerkinSlabs<T>::add_stiffness(const FarBlock& block, MatrixSlab<T>& slab) const {
-  int lane = 0;
-  for (const InitialComponent& c : this->model_.discretisation.scheme.initial_components()) {
-    const auto at = [&](Eigen::MatrixXd& m) {
-      return m.block(3 * (block.rows.begin - slab.first),
-                     3 * slab.h_columns.place[block.columns.begin], 3 * block.rows.size(),
-                     3 * block.columns.size());
-    };
-    at(slab.initial_h[lane]) += at(slab.stiffness);
-    lane += c.paired ? 2 : 1;
-  }
 }
 
 /// Adds forces of nodes, as FarBlock has them.

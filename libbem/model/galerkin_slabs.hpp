@@ -2,6 +2,7 @@
 
 #include "assembly/far_field.hpp"
 #include "assembly/galerkin_assembler.hpp"
+#include "model/parted_slab.hpp"
 #include "model/slab_assembly.hpp"
 
 namespace bem {
@@ -27,19 +28,7 @@ class GalerkinSlabs : public SlabAssembler<T> {
   MatrixForm form() const override { return form_; }
 
  private:
-  /// A slab of which distant blocks are in factors.
-  struct PartedSlab {
-    int first, last;
-    std::vector<NodeBlock> distant;   ///< whole blocks
-    std::vector<NodeBlock> expanded;  ///< parts of blocks, which are found in factors, too
-  };
-  PartedSlab part(const Slab& slab) const;
-  RowColumns near_columns(const PartedSlab& slab) const;
-  RowColumns stored_columns(const PartedSlab& slab) const;
-  std::vector<FarTask> tasks_of(const PartedSlab& parted) const;
   void assemble_factors(const PartedSlab& parted, bool with_forces, MatrixSlab<T>& slab);
-  void multiply_out(const FarBlock& block, MatrixSlab<T>& slab) const;
-  void add_stiffness(const FarBlock& block, MatrixSlab<T>& slab) const;
   void add_forces(const NodeRange& nodes, const AlignedVector<double>& forces);
   void add_traction_moments(const FarBlock& block);
   template <class F>

@@ -48,7 +48,49 @@ FactoredMatrices sum_of(const FactoredMatrices& moving, const FactoredMatrices& 
   return out;
 }
 
+/// To the real parts of lag 0 of an expanded block.
+template <class T>
+void add_stiffness(const FarBlock& block, const Scheme& scheme, MatrixSlab<T>& slab) {
+  int lane = 0;
+  for (const InitialComponent& c : scheme.initial_components()) {
+    const auto at = [&](Eigen::MatrixXd& m) {
+      return m.block(3 * (block.rows.begin - slab.first),
+                     3 * slab.h_columns.place[block.columns.begin], 3 * block.rows.size(),
+                     3 * block.columns.size());
+    };
+    at(slab.initial_h[lane]) += at(slab.stiffness);
+    lane += c.paired ? 2 : 1;
+  }
+}
+
 }  // namespace
+
+template <class T>
+void multiply_out(const FarBlock& block, const Scheme& scheme, MatrixSlab<T>& slab) {
+  const Eigen::Index row = 3 * (block.rows.begin - slab.first);
+  const auto set = [&](const FactoredMatrices& factors, std::size_t k, const ColumnPlaces& columns,
+                       auto& to) {
+    const Eigen::MatrixXf entries = factors.outputs * factors.inputs[k];
+    auto part =
+        to.block(row, 3 * columns.place[block.columns.begin], entries.rows(), entries.cols());
+    part = entries.cast<typename std::decay_t<decltype(to)>::Scalar>();
+  };
+  const std::size_t initial = slab.initial_h.size();
+  if (!block.stiffness.empty()) set(block.stiffness, 0, slab.h_columns, slab.stiffness);
+  for (std::size_t k = 0; k < block.inertia.inputs.size(); ++k) {
+    if (k < initial)
+      set(block.inertia, k, slab.h_columns, slab.initial_h[k]);
+    else
+      set(block.inertia, k, slab.h_columns, slab.h[k - initial]);
+  }
+  if (!block.inertia.empty()) add_stiffness(block, scheme, slab);
+  for (std::size_t k = 0; k < block.tractions.inputs.size(); ++k) {
+    if (k < initial)
+      set(block.tractions, k, slab.g_columns, slab.initial_g[k]);
+    else
+      set(block.tractions, k, slab.g_columns, slab.g[k - initial]);
+  }
+}
 
 template <class T>
 SlabParts<T> h_parts(const MatrixSlab<T>& slab) {
@@ -96,11 +138,13 @@ SlabFamily<T> initial_g_parts(const MatrixSlab<T>& slab, int first, int count) {
   return out;
 }
 
+template void multiply_out(const FarBlock&, const Scheme&, MatrixSlab<float>&);
 template SlabParts<float> h_parts(const MatrixSlab<float>&);
 template SlabParts<float> g_parts(const MatrixSlab<float>&);
 template SlabFamily<float> stiffness_parts(const MatrixSlab<float>&);
 template SlabFamily<float> initial_h_parts(const MatrixSlab<float>&, int, int);
 template SlabFamily<float> initial_g_parts(const MatrixSlab<float>&, int, int);
+template void multiply_out(const FarBlock&, const Scheme&, MatrixSlab<double>&);
 template SlabParts<double> h_parts(const MatrixSlab<double>&);
 template SlabParts<double> g_parts(const MatrixSlab<double>&);
 template SlabFamily<double> stiffness_parts(const MatrixSlab<double>&);

@@ -26,4 +26,8 @@ SlabFamily<T> initial_h_parts(const MatrixSlab<T>& slab, int first, int count);
 template <class T>
 SlabFamily<T> initial_g_parts(const MatrixSlab<T>& slab, int first, int count);
 
+/// Stores the entries of a block, which a slab has columns for.
+template <class T>
+void multiply_out(const FarBlock& block, const Scheme& scheme, MatrixSlab<T>& slab);
+
 }  // namespace bem
