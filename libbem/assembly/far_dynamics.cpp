@@ -22,6 +22,11 @@ Eigen::MatrixXd forced_motions(const TriangleMesh& mesh, const NodeRange& nodes)
   return out;
 }
 
+/// Of the force along an axis that belongs to motion c of forced_motions(): where FarBlock has it.
+int force_number(int axis, int c) {
+  return c < 6 ? 6 * axis + c : 18 + 6 * axis + c - 6;
+}
+
 }  // namespace
 
 template <class T>
@@ -45,8 +50,7 @@ void FarField::DynamicFactors<T>::prepare(FarBlock& block) {
 template <class T>
 void FarField::DynamicFactors<T>::add_point(int x, const PointCluster& y) {
   const std::size_t entry = 9 * stride_, nodes = y.nodes();
-  const std::array<int, 3> none = {-1, -1, -1};
-  const bool with_z = z_.wanted && z_.place[x] != none, with_g = g_.wanted && g_.place[x] != none;
+  const bool with_z = z_.wanted && z_.has_row_at(x), with_g = g_.wanted && g_.has_row_at(x);
   evaluate(x, y.points, with_z);
   if (with_z) {
     by_node_.resize(nodes * entry);
@@ -99,8 +103,7 @@ void FarField::DynamicFactors<T>::add_column_forces(const NodeRange& nodes, FarB
           forces.data(), columns * lanes);
   for (int j = 0; j < columns; ++j)
     for (int c = 0; c < 12; ++c) {
-      const int node = nodes.begin - task_.columns.begin + j / 3,
-                number = c < 6 ? 6 * (j % 3) + c : 18 + 6 * (j % 3) + c - 6;
+      const int node = nodes.begin - task_.columns.begin + j / 3, number = force_number(j % 3, c);
       double* to = &block.column_forces[(std::size_t(node) * FarBlock::kForces + number) * stride_];
       for (int lane = 0; lane < count_; ++lane)
         to[lane] += forces(static_cast<Eigen::Index>(j) * lanes + lane, c);
@@ -150,18 +153,11 @@ void FarField::DynamicFactors<T>::add_strain(FarBlock& block) {
   AlignedVector<T> rows(18 * stride_);
   adjoint_.resize(9 * stride_ * MidpointBatch::kCapacity);
   for (std::size_t x = 0; x < x_.points.size(); ++x) {
-    if (g_.place[x] == std::array<int, 3>{-1, -1, -1}) continue;
+    if (!g_.has_row_at(static_cast<int>(x))) continue;
     std::fill(rows.begin(), rows.end(), T(0));
     for (const SurfacePatch* patch : task_.strained) {
-      batch_.size = static_cast<int>(patch->midpoints.size());
-      for (int q = 0; q < batch_.padded_size(); ++q) {
-        const SurfacePatch::Midpoint& p = patch->midpoints[q < batch_.size ? q : 0];
-        for (int k = 0; k < 3; ++k) {
-          batch_.r[k][q] = p.place[k] - point(static_cast<int>(x)).place[k];
-          batch_.n[k][q] = p.normal[k];
-        }
-        batch_.area[q] = p.area;
-      }
+      batch_.set(point(static_cast<int>(x)).place, static_cast<int>(patch->midpoints.size()),
+                 [&](int q) -> const SurfacePatch::Midpoint& { return patch->midpoints[q]; });
       evaluate_midpoints(lanes_, field_.pairs_.scales(), point(static_cast<int>(x)).normal, batch_,
                          scratch_, {nullptr, adjoint_.data(), uniform_.data()});
       add_strain_of_midpoints(field_.pairs_, uniform_.data(), static_cast<int>(stride_),
@@ -183,9 +179,9 @@ void FarField::DynamicFactors<T>::add_strain(FarBlock& block) {
       for (int lane = 0; lane < count_; ++lane)
         in[lane] = of_nodes(row, static_cast<Eigen::Index>(c * stride_) + lane);
       field_.combination_.damp(in.data(), damped.data());
-      double* to =
-          &block.row_forces[(std::size_t(row / 3) * FarBlock::kForces + 18 + 6 * (row % 3) + c) *
-                            stride_];
+      double* to = &block.row_forces[(std::size_t(row / 3) * FarBlock::kForces +
+                                      force_number(static_cast<int>(row % 3), 6 + c)) *
+                                     stride_];
       for (int lane = 0; lane < count_; ++lane) to[lane] += scale * damped[lane];
     }
 }
@@ -200,8 +196,7 @@ void FarField::DynamicFactors<T>::finish_forces(FarBlock& block) {
   const Eigen::MatrixXd of_nodes = z_.outputs * sums.transpose().template cast<double>();
   for (Eigen::Index row = 0; row < of_nodes.rows(); ++row)
     for (int c = 0; c < 12; ++c) {
-      const int axis = static_cast<int>(row % 3),
-                number = c < 6 ? 6 * axis + c : 18 + 6 * axis + c - 6;
+      const int number = force_number(static_cast<int>(row % 3), c);
       double* to = &block.row_forces[(std::size_t(row / 3) * FarBlock::kForces + number) * stride_];
       for (int lane = 0; lane < count_; ++lane)
         to[lane] += of_nodes(row, static_cast<Eigen::Index>(c * stride_) + lane);

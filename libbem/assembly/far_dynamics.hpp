@@ -41,26 +41,27 @@ class FarField::DynamicFactors {
   /// One of the two matrices whose rows are combined.
   struct Part {
     bool wanted = false;
-    /// The lanes of the matrix by those of the kernel, and by the static kernel, in units of the
-    /// errors that they may have; of G, then those of J alone.
+    /// The lanes of the matrix by those of the kernel, in units of the errors that they may have;
+    /// of G, then those of J alone.
     Eigen::MatrixXd weights;
-    Eigen::VectorXd static_weights;
     Eigen::MatrixXd samples;                ///< rows x (point y, component, mix)
     std::vector<int> rows;                  ///< of the skeleton: 3 point of x_ + component
     Eigen::MatrixXd outputs;                ///< 3 nodes x skeleton
     std::vector<std::array<int, 3>> place;  ///< by point of x_: of its rows in it, or -1
+
+    bool has_row_at(int x) const { return place[x] != std::array<int, 3>{-1, -1, -1}; }
   };
 
   /// Random sums of lanes: lanes x kMixes.
   struct Mixes {
-    Mixes(const Part& z_part, const Part& g_part, double of_pressure, int lanes,
-          std::mt19937& random) {
+    Mixes(const Part& z_part, const Part& g_part, const Eigen::VectorXd& static_weights,
+          double of_pressure, int lanes, std::mt19937& random) {
       Eigen::MatrixXd signs(2 * lanes, kMixes);
       for (Eigen::Index i = 0; i < signs.size(); ++i)
         signs.data()[i] = (random() & 1U) != 0 ? 1.0 : -1.0;
       z = z_part.weights.transpose() * signs.topRows(lanes);
       g = g_part.weights.transpose() * signs;
-      static_g = signs.transpose() * g_part.static_weights;
+      static_g = signs.transpose() * static_weights;
       pressure = of_pressure * signs.topRows(lanes);
     }
     Eigen::MatrixXd z, g, pressure;
@@ -89,8 +90,9 @@ class FarField::DynamicFactors {
   int count_;
   PointCluster x_;
   Part z_, g_;
-  std::vector<int> used_;   ///< points of x_ with rows in a skeleton
-  double of_pressure_ = 0;  ///< weight of lanes of pressure_kernel()
+  std::vector<int> used_;           ///< points of x_ with rows in a skeleton
+  Eigen::VectorXd static_weights_;  ///< of G: as Part::weights, of the static kernel
+  double of_pressure_ = 0;          ///< weight of lanes of pressure_kernel()
   std::mt19937 random_{1};
 
   MidpointBatch batch_;

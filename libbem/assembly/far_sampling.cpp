@@ -21,11 +21,10 @@ void FarField::DynamicFactors<T>::weigh_lanes(const FarErrors& e) {
   g_.wanted = !task_.loaded->empty() && (e.g > 0 || e.initial_g > 0);
   z_.weights = Eigen::MatrixXd::Identity(count_, count_);
   z_.weights.topRows(initial) = field_.initial_of_inertia_;
-  z_.static_weights = Eigen::VectorXd::Zero(count_);
   g_.weights.resize(2 * count_, count_);
   g_.weights << field_.g_of_adjoint_, Eigen::MatrixXd::Identity(count_, count_);
-  g_.static_weights = Eigen::VectorXd::Zero(2 * count_);
-  g_.static_weights.head(count_) = field_.g_of_static_;
+  static_weights_ = Eigen::VectorXd::Zero(2 * count_);
+  static_weights_.head(count_) = field_.g_of_static_;
   // under uniform strain, tractions times J/c2^2 add to displacements times Z
   const Material& material = field_.pairs_.material();
   const double of_strain = weight(e.h) * material.density / field_.radius_;
@@ -36,7 +35,7 @@ void FarField::DynamicFactors<T>::weigh_lanes(const FarErrors& e) {
     const double of_g = weight(lane < initial ? e.initial_g : e.g);
     g_.weights.row(lane) *= of_g;
     g_.weights.row(count_ + lane) *= of_strain;
-    g_.static_weights[lane] *= of_g;
+    static_weights_[lane] *= of_g;
   }
 }
 
@@ -56,17 +55,11 @@ void FarField::DynamicFactors<T>::evaluate(int x, const std::vector<int>& y, boo
   constexpr std::size_t kTogether = MidpointBatch::kCapacity;
   for (std::size_t begin = 0; begin < y.size(); begin += kTogether) {
     const std::size_t size = std::min(y.size() - begin, kTogether);
-    batch_.size = static_cast<int>(size);
+    batch_.set(at.place, static_cast<int>(size), [&](int q) -> const SurfacePatch::Midpoint& {
+      return points[y[begin + static_cast<std::size_t>(q)]];
+    });
     static_batch_.size = 0;
-    for (std::size_t q = 0; q < static_cast<std::size_t>(batch_.padded_size()); ++q) {
-      const SurfacePatch::Midpoint& p = points[y[begin + (q < size ? q : 0)]];
-      for (int k = 0; k < 3; ++k) {
-        batch_.r[k][q] = p.place[k] - at.place[k];
-        batch_.n[k][q] = p.normal[k];
-      }
-      batch_.area[q] = p.area;
-      if (q < size) static_batch_.add(p.place - at.place);
-    }
+    for (std::size_t q = 0; q < size; ++q) static_batch_.add(points[y[begin + q]].place - at.place);
     evaluate_midpoints(lanes_, field_.pairs_.scales(), at.normal, batch_, scratch_,
                        {with_z ? &inertia_[begin * entry] : nullptr, &adjoint_[begin * entry],
                         uniform_.data(), &pressure_[begin * 3 * stride_]});
@@ -90,7 +83,7 @@ void FarField::DynamicFactors<T>::sample(const std::vector<int>& y) {
   // other sums for every point, so that nothing escapes all of them
   std::vector<Mixes> mixes;
   for (std::size_t q = 0; q < y.size(); ++q)
-    mixes.emplace_back(z_, g_, of_pressure_, count_, random_);
+    mixes.emplace_back(z_, g_, static_weights_, of_pressure_, count_, random_);
   const auto mix = [&](const Eigen::MatrixXd& sums, int which, const T* lanes) {
     double sum = 0;
     for (int lane = 0; lane < count_; ++lane) sum += sums(lane, which) * lanes[lane];

@@ -9,6 +9,12 @@
 
 namespace bem {
 
+template <class T>
+void set_zero(AlignedVector<T>& values, std::size_t size) {
+  values.resize(size);
+  std::fill(values.begin(), values.end(), T(0));
+}
+
 /// Where the columns of some nodes are, of which the others are not stored.
 struct ColumnPlaces {
   std::vector<int> place;  ///< by node; -1: not stored
@@ -77,11 +83,11 @@ struct GalerkinRows {
       part_of_.insert(part_of_.end(), parts[p].rows(), static_cast<int>(p));
     }
     const std::size_t entry = 9 * static_cast<std::size_t>(lanes);
-    zero(inertia, h * entry);
-    zero(adjoint, g * entry);
-    zero(static_h, h * 9);
-    zero(static_g, g * 9);
-    zero(strain, part_of_.size() * 18 * lanes);
+    set_zero(inertia, h * entry);
+    set_zero(adjoint, g * entry);
+    set_zero(static_h, h * 9);
+    set_zero(static_g, g * 9);
+    set_zero(strain, part_of_.size() * 18 * lanes);
   }
 
   const RowColumns& part(int row) const { return parts[part_of_[row]]; }
@@ -110,11 +116,6 @@ struct GalerkinRows {
   }
 
  private:
-  template <class S>
-  static void zero(AlignedVector<S>& values, std::size_t size) {
-    values.resize(size);
-    std::fill(values.begin(), values.end(), S(0));
-  }
   std::size_t h_entry(int row, int node) const {
     const int p = part_of_[row];
     return h_begin_[p] + std::size_t(row + first - parts[p].first) * parts[p].h.count +

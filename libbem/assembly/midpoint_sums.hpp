@@ -1,6 +1,7 @@
 #pragma once
 
 #include "assembly/pair_batch.hpp"
+#include "assembly/surface_patch.hpp"
 #include "kernels/radial_table.hpp"
 
 namespace bem {
@@ -14,6 +15,19 @@ struct MidpointBatch {
   double n[3][kCapacity];  ///< normals at y times areas [m^2]
   double area[kCapacity];  ///< of y [m^2]
 
+  /// `count` points, midpoint(q) for each, as they are seen from x.
+  template <class Midpoint>
+  void set(const Vec3& x, int count, const Midpoint& midpoint) {
+    size = count;
+    for (int q = 0; q < padded_size(); ++q) {
+      const SurfacePatch::Midpoint& p = midpoint(q < size ? q : 0);
+      for (int k = 0; k < 3; ++k) {
+        r[k][q] = p.place[k] - x[k];
+        n[k][q] = p.normal[k];
+      }
+      area[q] = p.area;
+    }
+  }
   /// Entries up to here have to be filled with something.
   int padded_size() const {
     return (size + PairBatch::kPadding - 1) / PairBatch::kPadding * PairBatch::kPadding;

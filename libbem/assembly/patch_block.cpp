@@ -89,16 +89,9 @@ void PatchBlock<T>::sum_by_midpoints(const PairIntegrals& pairs, const SurfacePa
   set_zero(own_strain_, from * 18 * stride);
   uniform_.resize(MidpointSums<T>::kUniform * stride);
   MidpointBatch& batch = midpoint_batch_;
-  batch.size = static_cast<int>(to);
   for (std::size_t i = 0; i < from; ++i) {
-    for (int q = 0; q < batch.padded_size(); ++q) {
-      const SurfacePatch::Midpoint& p = y.midpoints[q < batch.size ? q : 0];
-      for (int k = 0; k < 3; ++k) {
-        batch.r[k][q] = p.place[k] - x.midpoints[i].place[k];
-        batch.n[k][q] = p.normal[k];
-      }
-      batch.area[q] = p.area;
-    }
+    batch.set(x.midpoints[i].place, static_cast<int>(to),
+              [&](int q) -> const SurfacePatch::Midpoint& { return y.midpoints[q]; });
     const MidpointSums<T> sums = {with_h ? &own_inertia_[i * to * entry] : nullptr,
                                   &own_adjoint_[i * to * entry], uniform_.data()};
     evaluate_midpoints(lanes, pairs.scales(), x.midpoints[i].normal, batch, scratch_, sums);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "assembly/galerkin_rows.hpp"
 #include "assembly/midpoint_sums.hpp"
 #include "assembly/pair_integrals.hpp"
 #include "assembly/surface_patch.hpp"
@@ -7,12 +8,6 @@
 #include <algorithm>
 
 namespace bem {
-
-template <class T>
-void set_zero(AlignedVector<T>& values, std::size_t size) {
-  values.resize(size);
-  std::fill(values.begin(), values.end(), T(0));
-}
 
 /// to[rows[k]] += from[k], for `size` numbers each.
 template <class T>

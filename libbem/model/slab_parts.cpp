@@ -75,21 +75,19 @@ void multiply_out(const FarBlock& block, const Scheme& scheme, MatrixSlab<T>& sl
         to.block(row, 3 * columns.place[block.columns.begin], entries.rows(), entries.cols());
     part = entries.cast<typename std::decay_t<decltype(to)>::Scalar>();
   };
-  const std::size_t initial = slab.initial_h.size();
+  const auto set_lanes = [&](const FactoredMatrices& factors, const ColumnPlaces& columns,
+                             auto& initial, auto& lags) {
+    for (std::size_t k = 0; k < factors.inputs.size(); ++k) {
+      if (k < initial.size())
+        set(factors, k, columns, initial[k]);
+      else
+        set(factors, k, columns, lags[k - initial.size()]);
+    }
+  };
   if (!block.stiffness.empty()) set(block.stiffness, 0, slab.h_columns, slab.stiffness);
-  for (std::size_t k = 0; k < block.inertia.inputs.size(); ++k) {
-    if (k < initial)
-      set(block.inertia, k, slab.h_columns, slab.initial_h[k]);
-    else
-      set(block.inertia, k, slab.h_columns, slab.h[k - initial]);
-  }
+  set_lanes(block.inertia, slab.h_columns, slab.initial_h, slab.h);
   if (!block.inertia.empty()) add_stiffness(block, scheme, slab);
-  for (std::size_t k = 0; k < block.tractions.inputs.size(); ++k) {
-    if (k < initial)
-      set(block.tractions, k, slab.g_columns, slab.initial_g[k]);
-    else
-      set(block.tractions, k, slab.g_columns, slab.g[k - initial]);
-  }
+  set_lanes(block.tractions, slab.g_columns, slab.initial_g, slab.g);
 }
 
 template <class T>
