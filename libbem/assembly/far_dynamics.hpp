@@ -81,7 +81,7 @@ class FarField::DynamicFactors {
   void store(const NodeRange& nodes, FarBlock& block);
   void finish_forces(FarBlock& block);
   void add_strain(FarBlock& block);
-  const SurfacePatch::Midpoint& point(int x) const { return field_.surface_.points[x_.points[x]]; }
+  const Midpoint& point(int x) const { return field_.surface_.points[x_.points[x]]; }
 
   const FarField& field_;
   const FarTask& task_;

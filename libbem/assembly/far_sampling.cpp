@@ -43,7 +43,7 @@ void FarField::DynamicFactors<T>::weigh_lanes(const FarErrors& e) {
 template <class T>
 void FarField::DynamicFactors<T>::evaluate(int x, const std::vector<int>& y, bool with_z) {
   const auto& points = field_.surface_.points;
-  const SurfacePatch::Midpoint& at = point(x);
+  const Midpoint& at = point(x);
   const StaticTraction traction(field_.pairs_.material().kappa());
   const std::size_t entry = 9 * stride_;
   inertia_.resize(y.size() * entry);
@@ -55,14 +55,15 @@ void FarField::DynamicFactors<T>::evaluate(int x, const std::vector<int>& y, boo
   constexpr std::size_t kTogether = MidpointBatch::kCapacity;
   for (std::size_t begin = 0; begin < y.size(); begin += kTogether) {
     const std::size_t size = std::min(y.size() - begin, kTogether);
-    batch_.set(at.place, static_cast<int>(size), [&](int q) -> const SurfacePatch::Midpoint& {
+    batch_.set(at, static_cast<int>(size), [&](int q) -> const Midpoint& {
       return points[y[begin + static_cast<std::size_t>(q)]];
     });
     static_batch_.size = 0;
     for (std::size_t q = 0; q < size; ++q) static_batch_.add(points[y[begin + q]].place - at.place);
-    evaluate_midpoints(lanes_, field_.pairs_.scales(), at.normal, batch_, scratch_,
-                       {with_z ? &inertia_[begin * entry] : nullptr, &adjoint_[begin * entry],
-                        uniform_.data(), &pressure_[begin * 3 * stride_]});
+    evaluate_midpoints(
+        lanes_, field_.pairs_.scales(), at.normal, batch_, scratch_,
+        {stride_, with_z ? &inertia_[begin * entry] : nullptr, &adjoint_[begin * entry],
+         uniform_.data(), &pressure_[begin * 3 * stride_]});
     if (!g_.wanted) continue;
     evaluate_static(at.normal, traction, static_batch_, values);
     for (std::size_t q = 0; q < size; ++q)

@@ -12,7 +12,8 @@
 namespace bem {
 namespace {
 
-constexpr int kPatchTriangles = 16;
+constexpr int kPatchTriangles = 64;  // of y
+constexpr int kPartTriangles = 16;   // of x, and of y where it is close
 
 /// What to count of a pair of patches if every entry gets the mirror image of its mirror image:
 /// each pair of them once.
@@ -70,6 +71,8 @@ GalerkinAssembler::GalerkinAssembler(const TriangleMesh& mesh, double extent,
   std::vector<int> all(count);
   std::iota(all.begin(), all.end(), 0);
   patches_ = make_patches(mesh, reconstruction_, all, kPatchTriangles);
+  for (const SurfacePatch& patch : patches_)
+    parts_.emplace_back(mesh, reconstruction_, patch, kPartTriangles);
 }
 
 GalerkinAssembler::~GalerkinAssembler() = default;
@@ -108,40 +111,51 @@ void GalerkinAssembler::assemble_rows(const LaneTable<T>& lanes, bool mirrored,
   const int first = rows.first, last = rows.last, count = last - first;
   const bool symmetric = rows.form == MatrixForm::symmetric;
 
-  // the triangles that basis functions of wanted rows do not vanish on, patch by patch
+  // the triangles that basis functions of wanted rows do not vanish on, part by part
   std::vector<SurfacePatch> patches;
+  std::vector<std::size_t> whole;  // which patch it is a part of
   std::vector<PatchRows> wanted;
-  for (const SurfacePatch& patch : patches_) {
-    std::vector<int> reached;
-    for (int t : patch.triangles) {
-      const std::vector<int>& nodes = bases_[t].vertices;
-      if (std::any_of(nodes.begin(), nodes.end(), [&](int k) { return k >= first && k < last; }))
-        reached.push_back(t);
+  for (std::size_t p = 0; p < patches_.size(); ++p)
+    for (const PatchParts::Part& part : parts_[p].parts) {
+      std::vector<int> reached;
+      for (int t : part.patch.triangles) {
+        const std::vector<int>& nodes = bases_[t].vertices;
+        if (std::any_of(nodes.begin(), nodes.end(), [&](int k) { return k >= first && k < last; }))
+          reached.push_back(t);
+      }
+      if (reached.empty()) continue;
+      add_mass(reached, rows);
+      patches.push_back(part_of_patch(mesh_, reconstruction_, part.patch, std::move(reached)));
+      whole.push_back(p);
+      wanted.emplace_back(patches.back(), first, last);
     }
-    if (reached.empty()) continue;
-    add_mass(reached, rows);
-    patches.push_back(part_of_patch(mesh_, reconstruction_, patch, std::move(reached)));
-    wanted.emplace_back(patches.back(), first, last);
-  }
 
   // some patches of y at a time, added in their order: the same for any number of threads
-  const std::size_t together = 2 * static_cast<std::size_t>(thread_count());
+  const std::size_t together = thread_count();
   std::vector<PatchBlock<T>> blocks(std::min(together, patches_.size()));
   for (std::size_t begin = 0; begin < patches_.size(); begin += together) {
     const std::size_t some = std::min(together, patches_.size() - begin);
     parallel_for(some, [&](std::size_t i) {
       const FlushDenormals flush;
-      const SurfacePatch& y = patches_[begin + i];
+      const std::size_t at = begin + i;
+      const SurfacePatch& y = patches_[at];
       std::vector<char> reaching;  // by part of the rows
       for (const RowColumns& part : rows.parts) reaching.push_back(part.reaches(y.nodes) ? 1 : 0);
       const auto reaches = [&](int row) { return reaching[rows.part_number(row)] != 0; };
-      blocks[i].start(count, wanted, reaches, y, lanes.padded_lanes);
+      std::vector<std::size_t> reached;
+      double apart = 0;
       for (std::size_t k = 0; k < patches.size(); ++k) {
         if (!std::any_of(wanted[k].rows.begin(), wanted[k].rows.end(), reaches)) continue;
+        reached.push_back(k);
+        apart = std::max(apart, largest_distance(patches[k].box, y.box));
+      }
+      blocks[i].start(count, wanted, reaches, y,
+                      lanes.lanes_within(apart * pairs_.scales().lam_per_distance));
+      for (std::size_t k : reached) {
         check_interruption();
         const bool above = y.nodes.back() >= first + wanted[k].rows.front();
-        const double h_part = mirrored ? part_of_pair(k, begin + i) : !symmetric || above ? 1 : 0;
-        blocks[i].add(pairs_, patches[k], wanted[k], y, lanes, h_part);
+        const double h_part = mirrored ? part_of_pair(whole[k], at) : !symmetric || above ? 1 : 0;
+        blocks[i].add(pairs_, patches[k], wanted[k], y, parts_[at], lanes, h_part);
       }
     });
     parallel_for(count, [&](std::size_t row) {
@@ -159,29 +173,33 @@ void GalerkinAssembler::add_block_row(const SurfacePatch& y, const PatchBlock<T>
   const RowColumns& part = rows.part(row);
   const int own = block.place(row);
   if (own < 0 || !part.reaches(y.nodes)) return;
-  const std::size_t stride = rows.padded_lanes, size = 9 * stride;
-  const auto add = [](std::size_t count, const auto* from, auto* to) {
-    for (std::size_t i = 0; i < count; ++i) to[i] += from[i];
+  const BlockSums<T>& sums = block.sums();
+  const std::size_t stride = rows.padded_lanes, lanes = sums.lanes;
+  const auto add = [&](std::size_t count, const T* from, auto* to) {
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        to[i * stride + lane] += from[i * lanes + lane];
   };
   const auto add_entries = [&](const std::vector<int>& nodes, const ColumnPlaces& places,
-                               const AlignedVector<T>& dynamic, const Entries& fixed, auto entry,
-                               auto static_entry) {
+                               const AlignedVector<T>& dynamic, const AlignedVector<double>& fixed,
+                               auto entry, auto static_entry) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (!places.holds(nodes[k])) continue;
-      add(size, dynamic.data() + (own * nodes.size() + k) * size, entry(nodes[k]));
+      const std::size_t at = own * nodes.size() + k;
+      add(9, &dynamic[at * 9 * lanes], entry(nodes[k]));
       double* to = static_entry(nodes[k]);
-      for (int e = 0; e < 9; ++e) to[e] += fixed[e](own, static_cast<Eigen::Index>(k));
+      for (int e = 0; e < 9; ++e) to[e] += fixed[at * sums.kStaticEntry + e];
     }
   };
   add_entries(
-      y.nodes, part.h, block.inertia, block.static_h,
+      y.nodes, part.h, sums.inertia, sums.static_h,
       [&](int node) { return rows.inertia_block(row, node); },
       [&](int node) { return rows.static_h_block(row, node); });
   add_entries(
-      y.hats, part.g, block.adjoint, block.static_g,
+      y.hats, part.g, sums.adjoint, sums.static_g,
       [&](int node) { return rows.adjoint_block(row, node); },
       [&](int node) { return rows.static_g_block(row, node); });
-  add(18 * stride, block.strain.data() + own * 18 * stride, &rows.strain[row * 18 * stride]);
+  add(18, &sums.strain[own * 18 * lanes], &rows.strain[row * 18 * stride]);
 }
 
 /// f(node, corner's node, int phi~_node L_corner) for the triangle.

@@ -74,6 +74,7 @@ class GalerkinAssembler {
   EdgeReconstruction reconstruction_;
   std::vector<TriangleBasis> bases_;
   std::vector<SurfacePatch> patches_;
+  std::vector<PatchParts> parts_;  ///< of patches_
 };
 
 }  // namespace bem

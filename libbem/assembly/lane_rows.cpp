@@ -14,17 +14,17 @@ namespace bem {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// `count` vectors of a row of CombineRows().
-template <int count, class D, class T = hn::TFromD<D>>
-HWY_INLINE void CombineRow(D d, const SparseRows& rows, int row, const T* from, std::size_t size,
-                           T* to) {
+/// `count` vectors of a row of AddCombinedRows(), or of CombineRows() if there is nothing before.
+template <int count, bool adds, class D, class T = hn::TFromD<D>>
+HWY_INLINE void CombineRow(D d, const SparseRows& rows, int row, const T* from, std::size_t stride,
+                           double part, T* to) {
   using V = hn::Vec<D>;
   V sum[count];
 #pragma GCC unroll 8
-  for (int i = 0; i < count; ++i) sum[i] = hn::Zero(d);
+  for (int i = 0; i < count; ++i) sum[i] = adds ? hn::LoadU(d, to + i * hn::Lanes(d)) : hn::Zero(d);
   for (int k = rows.begin[row]; k < rows.begin[row + 1]; ++k) {
-    const V value = hn::Set(d, static_cast<T>(rows.values[k]));
-    const T* HWY_RESTRICT source = from + rows.items[k] * size;
+    const V value = hn::Set(d, static_cast<T>(part * rows.values[k]));
+    const T* HWY_RESTRICT source = from + rows.items[k] * stride;
 #pragma GCC unroll 8
     for (int i = 0; i < count; ++i)
       sum[i] = hn::MulAdd(value, hn::LoadU(d, source + i * hn::Lanes(d)), sum[i]);
@@ -33,34 +33,35 @@ HWY_INLINE void CombineRow(D d, const SparseRows& rows, int row, const T* from, 
   for (int i = 0; i < count; ++i) hn::StoreU(sum[i], d, to + i * hn::Lanes(d));
 }
 
-template <class T>
-void CombineRows(const SparseRows& rows, const T* from, std::size_t size, T* to) {
+/// row_of(row): where it goes.
+template <bool adds, class T, class RowOf>
+void CombineRows(const SparseRows& rows, const T* from, std::size_t stride, std::size_t size,
+                 double part, const RowOf& row_of, T* to) {
   const WholeVector<T> d;
   constexpr std::size_t kTogether = 8;
   const std::size_t most = kTogether * hn::Lanes(d);
   for (int row = 0; row < rows.rows(); ++row) {
-    T* const out = to + row * size;
+    T* const out = to + row_of(row) * size;
     std::size_t at = 0;
     for (; at + most <= size; at += most)
-      CombineRow<kTogether>(d, rows, row, from + at, size, out + at);
+      CombineRow<kTogether, adds>(d, rows, row, from + at, stride, part, out + at);
     ForLanes<T>(size - at, [&](auto tag, std::size_t rest) {
-      CombineRow<1>(tag, rows, row, from + at + rest, size, out + at + rest);
+      CombineRow<1, adds>(tag, rows, row, from + at + rest, stride, part, out + at + rest);
     });
   }
 }
 
 template <class T>
-void AddStrain(const T* HWY_RESTRICT uniform, int padded_lanes,
+void AddStrain(const T* HWY_RESTRICT uniform, std::size_t lanes,
                const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
                T* HWY_RESTRICT out) {
-  const std::size_t stride = padded_lanes;
-  ForLanes<T>(stride, [&](auto d, std::size_t lane) {
+  ForLanes<T>(lanes, [&](auto d, std::size_t lane) {
     using V = hn::Vec<decltype(d)>;
-    const auto sum = [&](int entry) { return hn::LoadU(d, uniform + entry * stride + lane); };
+    const auto sum = [&](int entry) { return hn::LoadU(d, uniform + entry * lanes + lane); };
     for (int i = 0; i < 3; ++i) {
       const V j[3] = {sum(3 * i), sum(3 * i + 1), sum(3 * i + 2)}, p = sum(9 + i);
       for (int c = 0; c < 6; ++c) {
-        T* HWY_RESTRICT to = out + (i * 6 + c) * stride + lane;
+        T* HWY_RESTRICT to = out + (i * 6 + c) * lanes + lane;
         V total = hn::MulAdd(hn::Set(d, static_cast<T>(pressure[c])), p, hn::LoadU(d, to));
         for (int l = 0; l < 3; ++l)
           total = hn::MulAdd(hn::Set(d, static_cast<T>(tractions(l, c))), j[l], total);
@@ -70,21 +71,37 @@ void AddStrain(const T* HWY_RESTRICT uniform, int padded_lanes,
   });
 }
 
-void CombineRowsDouble(const SparseRows& rows, const double* from, std::size_t size, double* to) {
-  CombineRows(rows, from, size, to);
+void CombineRowsDouble(const SparseRows& rows, const double* from, std::size_t stride,
+                       std::size_t size, double* to) {
+  CombineRows<false>(
+      rows, from, stride, size, 1, [](int row) { return static_cast<std::size_t>(row); }, to);
 }
-void CombineRowsFloat(const SparseRows& rows, const float* from, std::size_t size, float* to) {
-  CombineRows(rows, from, size, to);
+void AddCombinedRowsDouble(const SparseRows& rows, const double* from, std::size_t size,
+                           double part, const std::vector<int>& rows_of_to, double* to) {
+  CombineRows<true>(
+      rows, from, size, size, part,
+      [&](int row) { return static_cast<std::size_t>(rows_of_to[row]); }, to);
 }
-void AddStrainDouble(const double* uniform, int padded_lanes,
+void CombineRowsFloat(const SparseRows& rows, const float* from, std::size_t stride,
+                      std::size_t size, float* to) {
+  CombineRows<false>(
+      rows, from, stride, size, 1, [](int row) { return static_cast<std::size_t>(row); }, to);
+}
+void AddCombinedRowsFloat(const SparseRows& rows, const float* from, std::size_t size, double part,
+                          const std::vector<int>& rows_of_to, float* to) {
+  CombineRows<true>(
+      rows, from, size, size, part,
+      [&](int row) { return static_cast<std::size_t>(rows_of_to[row]); }, to);
+}
+void AddStrainDouble(const double* uniform, std::size_t lanes,
                      const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
                      double* out) {
-  AddStrain(uniform, padded_lanes, tractions, pressure, out);
+  AddStrain(uniform, lanes, tractions, pressure, out);
 }
-void AddStrainFloat(const float* uniform, int padded_lanes,
+void AddStrainFloat(const float* uniform, std::size_t lanes,
                     const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
                     float* out) {
-  AddStrain(uniform, padded_lanes, tractions, pressure, out);
+  AddStrain(uniform, lanes, tractions, pressure, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -95,27 +112,41 @@ HWY_AFTER_NAMESPACE();
 namespace bem {
 
 HWY_EXPORT(CombineRowsDouble);
+HWY_EXPORT(AddCombinedRowsDouble);
 HWY_EXPORT(CombineRowsFloat);
+HWY_EXPORT(AddCombinedRowsFloat);
 HWY_EXPORT(AddStrainDouble);
 HWY_EXPORT(AddStrainFloat);
 
-void combine_rows(const SparseRows& rows, const double* from, std::size_t size, double* to) {
-  HWY_DYNAMIC_DISPATCH(CombineRowsDouble)(rows, from, size, to);
+void combine_rows(const SparseRows& rows, const double* from, std::size_t stride, std::size_t size,
+                  double* to) {
+  HWY_DYNAMIC_DISPATCH(CombineRowsDouble)(rows, from, stride, size, to);
 }
 
-void combine_rows(const SparseRows& rows, const float* from, std::size_t size, float* to) {
-  HWY_DYNAMIC_DISPATCH(CombineRowsFloat)(rows, from, size, to);
+void add_combined_rows(const SparseRows& rows, const double* from, std::size_t size, double part,
+                       const std::vector<int>& rows_of_to, double* to) {
+  HWY_DYNAMIC_DISPATCH(AddCombinedRowsDouble)(rows, from, size, part, rows_of_to, to);
 }
 
-void add_strain(const double* uniform, int padded_lanes,
+void combine_rows(const SparseRows& rows, const float* from, std::size_t stride, std::size_t size,
+                  float* to) {
+  HWY_DYNAMIC_DISPATCH(CombineRowsFloat)(rows, from, stride, size, to);
+}
+
+void add_combined_rows(const SparseRows& rows, const float* from, std::size_t size, double part,
+                       const std::vector<int>& rows_of_to, float* to) {
+  HWY_DYNAMIC_DISPATCH(AddCombinedRowsFloat)(rows, from, size, part, rows_of_to, to);
+}
+
+void add_strain(const double* uniform, std::size_t lanes,
                 const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
                 double* out) {
-  HWY_DYNAMIC_DISPATCH(AddStrainDouble)(uniform, padded_lanes, tractions, pressure, out);
+  HWY_DYNAMIC_DISPATCH(AddStrainDouble)(uniform, lanes, tractions, pressure, out);
 }
 
-void add_strain(const float* uniform, int padded_lanes,
+void add_strain(const float* uniform, std::size_t lanes,
                 const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure, float* out) {
-  HWY_DYNAMIC_DISPATCH(AddStrainFloat)(uniform, padded_lanes, tractions, pressure, out);
+  HWY_DYNAMIC_DISPATCH(AddStrainFloat)(uniform, lanes, tractions, pressure, out);
 }
 
 }  // namespace bem

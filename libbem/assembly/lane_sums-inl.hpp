@@ -19,16 +19,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class T>
 using WholeVector = hn::CappedTag<T, 64 / sizeof(T)>;
 
-/// f(tag, lane) for all lanes, vector by vector, of which the last one may be half as wide.
+/// f(tag, lane) for all lanes, a multiple of 32 bytes of them, vector by vector, of which the last
+/// one may be half as wide.
 template <class T, class F>
 HWY_INLINE void ForLanes(std::size_t padded_lanes, const F& f) {
   const WholeVector<T> d;
   std::size_t lane = 0;
   for (; lane + hn::Lanes(d) <= padded_lanes; lane += hn::Lanes(d)) f(d, lane);
-  if constexpr (sizeof(T) == sizeof(float)) {
-    const hn::CappedTag<T, LaneTable<T>::kLanePadding> rest;
-    for (; lane < padded_lanes; lane += hn::Lanes(rest)) f(rest, lane);
-  }
+  const hn::CappedTag<T, 32 / sizeof(T)> rest;
+  for (; lane < padded_lanes; lane += hn::Lanes(rest)) f(rest, lane);
 }
 
 template <class D>

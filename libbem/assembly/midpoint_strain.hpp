@@ -5,22 +5,21 @@
 
 namespace bem {
 
-/// out[3 axes x 6][padded lane] += J of the tractions of uniform strain, which are linear in the
+/// out[3 axes x 6][lane] += J of the tractions of uniform strain, which are linear in the
 /// normal, from MidpointSums::uniform.
 template <class T>
-void add_strain_of_midpoints(const PairIntegrals& pairs, const T* uniform, int padded_lanes,
+void add_strain_of_midpoints(const PairIntegrals& pairs, const T* uniform, std::size_t lanes,
                              T* out) {
   const Vector6 pressure = pairs.pressure_of_strain();
-  const std::size_t stride = padded_lanes;
   Eigen::Matrix<double, 3, 6> tractions[3];  // of the axes as normals
   for (int k = 0; k < 3; ++k) tractions[k] = pairs.shear_of_strain(Vec3::Unit(k));
   for (int i = 0; i < 3; ++i)
     for (int c = 0; c < 6; ++c) {
-      T* to = out + (6 * i + c) * stride;
+      T* to = out + (6 * i + c) * lanes;
       const auto add = [&](double factor, int entry) {
         if (factor == 0) return;
-        const T* from = uniform + entry * stride;
-        for (std::size_t lane = 0; lane < stride; ++lane)
+        const T* from = uniform + entry * lanes;
+        for (std::size_t lane = 0; lane < lanes; ++lane)
           to[lane] += static_cast<T>(factor) * from[lane];
       };
       for (int k = 0; k < 3; ++k)

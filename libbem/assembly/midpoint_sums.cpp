@@ -19,11 +19,11 @@ template <bool with_inertia, class D, class T = hn::TFromD<D>>
 HWY_INLINE void EvaluateMidpointLanes(D d, std::size_t lane, const LaneTable<T>& table, int size,
                                       PairScratch<T>& scratch, const MidpointSums<T>& sums) {
   using V = hn::Vec<D>;
-  const std::size_t stride = table.padded_lanes;
+  const std::size_t stride = sums.lanes;
   V pressure[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   for (int q = 0; q < size; ++q) {
     V f[kHypersingularCount];
-    EvaluateRadial<kFirstFunction<with_inertia>>(d, stride, scratch.interval[q] + lane,
+    EvaluateRadial<kFirstFunction<with_inertia>>(d, table.padded_lanes, scratch.interval[q] + lane,
                                                  scratch.local[q], f);
     const auto at = [&](int row) { return hn::Set(d, scratch.coefficient[row][q]); };
     T* HWY_RESTRICT adjoint = sums.adjoint + 9 * q * stride + lane;
@@ -83,9 +83,10 @@ void EvaluateMidpoints(const LaneTable<T>& table, const PairScales& scales, cons
   for (int q = 0; q < batch.size; ++q) {
     scratch.moving[0][q] = static_cast<T>(batch.area[q]);
     for (int k = 0; k < 3; ++k)
-      scratch.moving[1 + k][q] = static_cast<T>(batch.n[k][q] / batch.area[q]);
+      scratch.moving[1 + k][q] =
+          batch.area[q] > 0 ? static_cast<T>(batch.n[k][q] / batch.area[q]) : T(0);
   }
-  ForLanes<T>(table.padded_lanes, [&](auto d, std::size_t lane) {
+  ForLanes<T>(sums.lanes, [&](auto d, std::size_t lane) {
     if (sums.inertia)
       EvaluateMidpointLanes<true>(d, lane, table, batch.size, scratch, sums);
     else

@@ -157,7 +157,7 @@ template <bool with_inertia, bool x_stays, class D, class T = hn::TFromD<D>>
 HWY_INLINE void AccumulateLanes(D d, std::size_t lane, const LaneTable<T>& table,
                                 const PairBatch& batch, PairScratch<T>& scratch,
                                 const PairSums<T>& sums) {
-  const std::size_t entry = table.padded_lanes;
+  const std::size_t entry = sums.lanes;
   const std::size_t step = PairBatch::kFibres * hn::Lanes(d);
   // of the end that moves: six shapes, of y one and three hats for tractions, one for pressure
   constexpr int kOfAdjoint = x_stays ? 4 : 6, kOfPressure = x_stays ? 1 : 6;
@@ -210,7 +210,7 @@ HWY_INLINE void AccumulateLanes(D d, std::size_t lane, const LaneTable<T>& table
 template <bool with_inertia, bool x_stays, class T>
 void AccumulateBatch(const LaneTable<T>& table, const PairBatch& batch, PairScratch<T>& scratch,
                      const PairSums<T>& sums) {
-  ForLanes<T>(scratch.used_lanes, [&](auto d, std::size_t lane) {
+  ForLanes<T>(std::min(scratch.used_lanes, sums.lanes), [&](auto d, std::size_t lane) {
     AccumulateLanes<with_inertia, x_stays>(d, lane, table, batch, scratch, sums);
   });
 }

@@ -7,11 +7,13 @@ namespace bem {
 
 /// Where the sums over the points of a pair of triangles go, for every lane (lag and stage
 /// component): the dynamic kernels times the shape functions of both triangles. Arrays are
-/// [entry][padded lane].
+/// [entry][lane].
 template <class T>
 struct PairSums {
   static constexpr int kUniform = 12;
 
+  std::size_t
+      lanes;  ///< that are stored: a multiple of LaneTable::kLanePadding; later ones are zero
   T* inertia[kShapes][kShapes];  ///< Z by shapes of y and x, 9 entries; all null: not wanted
   T* adjoint[3][kShapes];        ///< J by corners of y and shapes of x, 9 entries (row-major)
   /// J of tractions that are constant on y, by shapes of x: 9 entries, then pressure_kernel(): 3.

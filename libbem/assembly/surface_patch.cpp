@@ -20,10 +20,9 @@ int place_of(const std::vector<int>& sorted, int value) {
 
 /// See SurfacePatch::curls_at. The hat of corner i has the curl c_i, the bubble of edge (a, b) has
 /// 4 (L_a c_b + L_b c_a).
-std::array<Eigen::MatrixXd, 3> curls_at_midpoints(const TriangleMesh& mesh, const SurfacePatch& p) {
-  std::array<Eigen::MatrixXd, 3> by_shape;
-  for (Eigen::MatrixXd& axis : by_shape)
-    axis = Eigen::MatrixXd::Zero(p.shape_count, static_cast<Eigen::Index>(p.midpoints.size()));
+std::array<SparseRows, 3> curls_at_midpoints(const TriangleMesh& mesh, const SurfacePatch& p) {
+  using Values = std::map<int, Vec3>;  // by midpoint
+  std::vector<Values> of_shapes(p.shape_count);
   const int hats = static_cast<int>(p.hats.size());
   for (std::size_t t = 0; t < p.triangles.size(); ++t) {
     const Triangle& corners = mesh.triangles[p.triangles[t]];
@@ -32,20 +31,27 @@ std::array<Eigen::MatrixXd, 3> curls_at_midpoints(const TriangleMesh& mesh, cons
       c[i] = (mesh.vertices[corners[(i + 1) % 3]] - mesh.vertices[corners[(i + 2) % 3]]) / 6;
     for (int k = 0; k < 3; ++k) {  // edge from corner k to k + 1; the opposite corner is k + 2
       const int point = p.shapes[t][3 + k] - hats, next = (k + 1) % 3, opposite = (k + 2) % 3;
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto add = [&](int shape, double value) {
-          by_shape[axis](p.shapes[t][shape], point) += value;
-        };
-        for (int i = 0; i < 3; ++i) add(i, c[i][axis]);
-        add(3 + k, 2 * (c[k] + c[next])[axis]);
-        add(3 + next, 2 * c[opposite][axis]);
-        add(3 + opposite, 2 * c[opposite][axis]);
-      }
+      const auto add = [&](int shape, const Vec3& value) {
+        of_shapes[p.shapes[t][shape]].try_emplace(point, Vec3::Zero()).first->second += value;
+      };
+      for (int i = 0; i < 3; ++i) add(i, c[i]);
+      add(3 + k, 2 * (c[k] + c[next]));
+      add(3 + next, 2 * c[opposite]);
+      add(3 + opposite, 2 * c[opposite]);
     }
   }
-  const Eigen::MatrixXd of_nodes = p.displacements.dense(p.shape_count);
-  std::array<Eigen::MatrixXd, 3> out;
-  for (int axis = 0; axis < 3; ++axis) out[axis] = of_nodes * by_shape[axis];
+  std::array<SparseRows, 3> out;
+  for (int node = 0; node < p.displacements.rows(); ++node) {
+    Values of_node;
+    for (int k = p.displacements.begin[node]; k < p.displacements.begin[node + 1]; ++k)
+      for (const auto& [point, value] : of_shapes[p.displacements.items[k]])
+        of_node.try_emplace(point, Vec3::Zero()).first->second += p.displacements.values[k] * value;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<std::pair<int, double>> entries;
+      for (const auto& [point, value] : of_node) entries.emplace_back(point, value[axis]);
+      out[axis].add_row(entries);
+    }
+  }
   return out;
 }
 
@@ -72,7 +78,10 @@ SurfacePatch make_patch(const TriangleMesh& mesh, const EdgeReconstruction& reco
   std::vector<Vec3> corners;
   for (int v : p.hats) corners.push_back(mesh.vertices[v]);
   p.box = bounding_box(corners);
-  p.midpoints.resize(edges.size());
+  for (int e : edges) {
+    const auto& [a, b] = reconstruction.edges().vertices[e];
+    p.midpoints.emplace_back(mesh.vertices[a], mesh.vertices[b]);
+  }
   for (int t : p.triangles) {
     const double part = triangle_area(mesh, mesh.triangles[t]) / 3;
     std::array<int, 6> shapes;
@@ -102,7 +111,6 @@ SurfacePatch make_patch(const TriangleMesh& mesh, const EdgeReconstruction& reco
       value[node] += it.value();
     }
     for (int v : reconstruction.edges().vertices[edges[e]]) {
-      p.midpoints[e].place += 0.5 * mesh.vertices[v];
       value[place_of(p.nodes, v)] += 0.5;
       hats_at[place_of(p.hats, v)].emplace_back(number, 0.5);
     }
@@ -169,6 +177,20 @@ std::vector<SurfacePatch> make_patches(const TriangleMesh& mesh,
   for (std::vector<int>& part : parts)
     patches.push_back(make_patch(mesh, reconstruction, std::move(part)));
   return patches;
+}
+
+PatchParts::PatchParts(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction,
+                       const SurfacePatch& whole, int most) {
+  const auto places = [](const std::vector<int>& of, const std::vector<int>& in) {
+    std::vector<int> out;
+    for (int value : of) out.push_back(place_of(in, value));
+    return out;
+  };
+  for (SurfacePatch& patch : make_patches(mesh, reconstruction, whole.triangles, most)) {
+    std::vector<int> nodes = places(patch.nodes, whole.nodes),
+                     hats = places(patch.hats, whole.hats);
+    parts.push_back({std::move(patch), std::move(nodes), std::move(hats)});
+  }
 }
 
 SurfacePatch part_of_patch(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "assembly/edge_reconstruction.hpp"
+#include "assembly/midpoint.hpp"
 
 namespace bem {
 
@@ -27,18 +28,12 @@ struct SurfacePatch {
   std::vector<std::array<int, kShapes>> shapes;  ///< by triangle: numbers of hats, then of bubbles
   SparseRows displacements;                      ///< by node: shapes
 
-  /// The rule of degree 2 whose points are the midpoints of edges, which triangles share.
-  struct Midpoint {
-    Vec3 place = Vec3::Zero();
-    Vec3 normal = Vec3::Zero();  ///< times the area [m^2]
-    double area = 0;
-  };
   std::vector<Midpoint> midpoints;
   SparseRows displacements_at;  ///< by node: midpoints
   SparseRows tractions_at;      ///< by hat: midpoints
-  /// Surface curls (n x gradient) of the nodes' functions at midpoints, times areas [m], by axis:
-  /// nodes x midpoints.
-  std::array<Eigen::MatrixXd, 3> curls_at;
+  /// Surface curls (n x gradient) of the nodes' functions at midpoints, times areas [m], by axis
+  /// and node: midpoints.
+  std::array<SparseRows, 3> curls_at;
 
   BoundingBox box;
   double longest_edge = 0;
@@ -48,6 +43,19 @@ struct SurfacePatch {
 std::vector<SurfacePatch> make_patches(const TriangleMesh& mesh,
                                        const EdgeReconstruction& reconstruction,
                                        const std::vector<int>& triangles, int most);
+
+/// A patch that is cut into smaller ones.
+struct PatchParts {
+  struct Part {
+    SurfacePatch patch;
+    std::vector<int> nodes, hats;  ///< places in those of the whole patch
+  };
+  std::vector<Part> parts;
+
+  /// Parts of at most so many triangles.
+  PatchParts(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction,
+             const SurfacePatch& whole, int most);
+};
 
 /// What belongs to some triangles of a patch. Box and edge remain those of the patch, so that what
 /// depends on them does not depend on which triangles are asked for.

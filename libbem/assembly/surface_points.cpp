@@ -36,13 +36,12 @@ SurfacePoints::SurfacePoints(const TriangleMesh& mesh, const EdgeReconstruction&
   const auto nodes = static_cast<Eigen::Index>(mesh.vertices.size()),
              edges = static_cast<Eigen::Index>(reconstruction.edges().size());
   const SparseMatrix bubbles = reconstruction.coefficients().transpose();
-  points.resize(edges);
   std::vector<Entry> halves;
-  for (Eigen::Index e = 0; e < edges; ++e)
-    for (int v : reconstruction.edges().vertices[e]) {
-      points[e].place += 0.5 * mesh.vertices[v];
-      halves.emplace_back(v, static_cast<int>(e), 0.5);
-    }
+  for (const auto& [a, b] : reconstruction.edges().vertices) {
+    const auto e = static_cast<int>(points.size());
+    points.emplace_back(mesh.vertices[a], mesh.vertices[b]);
+    for (int v : {a, b}) halves.emplace_back(v, e, 0.5);
+  }
   tractions_at = sparse(nodes, edges, halves);
   displacements_at = tractions_at + bubbles;
 

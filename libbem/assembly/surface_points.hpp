@@ -11,9 +11,9 @@ struct SurfacePoints {
   SurfacePoints(const TriangleMesh& mesh, const EdgeReconstruction& reconstruction);
 
   using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  std::vector<SurfacePatch::Midpoint> points;  ///< by edge
-  SparseMatrix displacements_at;               ///< nodes x points
-  SparseMatrix tractions_at;                   ///< nodes x points
+  std::vector<Midpoint> points;   ///< by edge
+  SparseMatrix displacements_at;  ///< nodes x points
+  SparseMatrix tractions_at;      ///< nodes x points
   /// Surface curls (n x gradient) of the nodes' functions, times areas [m], by axis.
   std::array<SparseMatrix, 3> curls_at;
   /// By node: around the triangles on which its functions do not vanish, and their longest edge.

@@ -196,6 +196,12 @@ void LaneTable<T>::find_used_lanes() {
 }
 
 template <class T>
+int LaneTable<T>::lanes_within(double lam) const {
+  const int last = std::min(intervals - 1, static_cast<int>(std::max(0.0, position(lam))));
+  return *std::max_element(used_lanes.begin(), used_lanes.begin() + last + 1);
+}
+
+template <class T>
 void LaneTable<T>::evaluate(double lam, double* out) const {
   const double place = position(lam);
   const int index = std::min(static_cast<int>(place), intervals - 1);

@@ -59,6 +59,8 @@ struct LaneTable {
   /// zero to an eighth of rounding beside the largest one of their function. A short way concerns
   /// few lags.
   void find_used_lanes();
+  /// How many lanes count at any distance up to this one.
+  int lanes_within(double lam) const;
   /// Interpolated values out[function*padded_lanes + lane].
   void evaluate(double lam, double* out) const;
 };

@@ -61,4 +61,9 @@ inline double distance(const BoundingBox& a, const BoundingBox& b) {
   return std::sqrt(squared_distance(a, b));
 }
 
+/// Upper bound of the distance between points of two boxes.
+inline double largest_distance(const BoundingBox& a, const BoundingBox& b) {
+  return (a.max - b.min).cwiseAbs().cwiseMax((b.max - a.min).cwiseAbs()).norm();
+}
+
 }  // namespace bem

@@ -24,12 +24,13 @@ struct Sums {
 Sums sums_of(const TriangleMesh& mesh, int tx, int ty, double tolerance) {
   const PairQuadrature quadrature(mesh, tolerance, 0);
   Sums out;
-  quadrature.for_each_point(tx, ty, KernelPart::static_part, [&](const PairPoint& p) {
-    ++out.points;
-    out.areas += p.weight;
-    out.potential +=
-        p.weight / (quadrature.position(tx, p.x) - quadrature.position(ty, p.y)).norm();
-  });
+  quadrature.for_each_point(
+      tx, ty, KernelPart::static_part, PairShare::all, [&](const PairPoint& p) {
+        ++out.points;
+        out.areas += p.weight;
+        out.potential +=
+            p.weight / (quadrature.position(tx, p.x) - quadrature.position(ty, p.y)).norm();
+      });
   return out;
 }
 

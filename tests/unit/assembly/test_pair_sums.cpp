@@ -15,6 +15,7 @@ constexpr int kRows = 9 * 54 + 72;
 template <class T>
 PairSums<T> places(AlignedVector<T>& from, int padded_lanes) {
   PairSums<T> sums;
+  sums.lanes = padded_lanes;
   T* at = from.data();
   for (auto& y : sums.inertia)
     for (auto& x : y) x = std::exchange(at, at + 9 * padded_lanes);
