@@ -29,7 +29,7 @@ PLAN = {
     "collision": "base mesh",
     "dynamics": "base algebra mesh scene kernels assembly compress model",
     "constraints": "base algebra mesh scene collision friction dynamics",
-    "simulation": "base files mesh scene model settings archive preparation dynamics constraints",
+    "simulation": "base files mesh output scene model settings archive preparation dynamics constraints",
     "recording": "base files mesh render output scene model dynamics constraints simulation",
     "convergence": "base algebra mesh render scene kernels model dynamics simulation",
 }

@@ -31,6 +31,8 @@ class StateArchive {
   virtual ~StateArchive() = default;
   /// false: what is visited is saved.
   virtual bool restores() const = 0;
+  /// Bytes that can still be restored.
+  virtual std::uint64_t left() const = 0;
 
   template <class... T>
   void operator()(T&... values) {
@@ -55,8 +57,6 @@ class StateArchive {
  protected:
   /// Saves `size` bytes, or overwrites them with what was saved.
   virtual void bytes(void* data, std::size_t size) = 0;
-  /// Bytes that can still be restored.
-  virtual std::uint64_t left() const = 0;
   /// Throws that the data are no state of these objects.
   [[noreturn]] virtual void refuse() const = 0;
 

@@ -16,6 +16,14 @@ constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+ConstraintStatistics ConstraintStatistics::with_work_of(const ConstraintStatistics& other) const {
+  ConstraintStatistics out = *this;
+  out.iterations = other.iterations;
+  out.sweeps = other.sweeps;
+  out.newton_steps = other.newton_steps;
+  return out;
+}
+
 ConstraintSolver::ConstraintSolver(const JointPlan& plan, std::vector<Body>& bodies,
                                    const ContactTolerances& tolerances, FrictionMethod method)
     : bodies_(&bodies),

@@ -34,13 +34,7 @@ struct ConstraintStatistics {
     newton_steps += other.newton_steps;
   }
   /// The same statistics for the work of another solution.
-  ConstraintStatistics with_work_of(const ConstraintStatistics& other) const {
-    ConstraintStatistics out = *this;
-    out.iterations = other.iterations;
-    out.sweeps = other.sweeps;
-    out.newton_steps = other.newton_steps;
-    return out;
-  }
+  ConstraintStatistics with_work_of(const ConstraintStatistics& other) const;
   void visit_state(StateArchive& state) {
     state(contacts, iterations, sweeps, newton_steps, joints_met, contacts_met, contacts_complete,
           infeasible, exhausted);
@@ -62,6 +56,11 @@ class ConstraintSolver {
   /// `method`: of the contact problems.
   ConstraintSolver(const JointPlan& plan, std::vector<Body>& bodies,
                    const ContactTolerances& tolerances, FrictionMethod method);
+
+  /// What holds a body, which was moved before the first step, holds it where it is now.
+  void hold_here(std::size_t body) {
+    start_centres_[body] = (*bodies_)[body].frame().translation();
+  }
 
   /// Chooses the joints that hold in the step from t to t + dt [s].
   void begin_step(double t, double dt);

@@ -386,8 +386,9 @@ void Body::end_step() {
 
 void Body::visit_state(StateArchive& state) {
   state(frame_, displacement_);
-  if (elastic_) state(*elastic_, deformation_);
+  if (elastic_) state(*elastic_, deformation_, elastic_->centrifugal_history());
   for (PrescribedLoad& p : loads_) state(p.history);
+  if (elastic_) state(elastic_->corner_history());
 }
 
 }  // namespace bem

@@ -104,6 +104,7 @@ class Body {
   void visit_state(StateArchive& state);
 
  private:
+  friend class BodyStart;
   bool is_quasistatic() const { return model().kind == ModelKind::quasistatic; }
   std::vector<Vec3> end_shape() const;
   void check_loadable(const std::vector<int>& nodes) const;

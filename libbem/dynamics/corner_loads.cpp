@@ -32,6 +32,7 @@ std::shared_ptr<const CornerLoads> make_corner_loads(const ElasticSystem& system
       loads.push_back(std::move(load));
       out->areas[out->shape_of_joint[i]] += triangle_area(mesh, triangle) / 3;
     }
+  out->shape = LoadShape(loads, out->inputs());
   out->columns = load_columns(system, assembler, loads);
   return out;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dynamics/joint_node.hpp"
+#include "dynamics/load_shape.hpp"
 #include "model/elastic_system.hpp"
 
 #include <memory>
@@ -13,6 +14,7 @@ namespace bem {
 struct CornerLoads {
   std::vector<int> shape_of_joint;  ///< by joint node: which shape, or -1
   std::vector<double> areas;        ///< integral of a shape's hat function over its triangles [m^2]
+  LoadShape shape;                  ///< of the inputs
   InputColumns columns;             ///< three inputs per shape: its tractions along the axes [Pa]
 
   Eigen::Index inputs() const { return static_cast<Eigen::Index>(3 * areas.size()); }

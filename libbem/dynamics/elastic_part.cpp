@@ -367,6 +367,14 @@ std::optional<ElasticPart::Corrected> ElasticPart::end_step() {
   return corrected;
 }
 
+void ElasticPart::visit_state(StateArchive& state) {
+  state(offset_, rate_, motion_history_, acceleration_history_);
+  traction_history_.visit_state(state, tractions_);
+  state(solution_memory_);
+  state.check(solution_memory_.fits(system_.scheme().initial_components().size(),
+                                    static_cast<Eigen::Index>(3 * system_.model().nodes())));
+}
+
 void ElasticPart::add_nodal_tractions(const NodalForces& forces,
                                       Eigen::Matrix3Xd& tractions) const {
   const auto add = [&](const std::vector<int>& nodes, const auto& values) {

@@ -81,15 +81,14 @@ class ElasticPart {
   /// Nodal tractions of forces at the end of the step are added [Pa, body axes].
   void add_nodal_tractions(const NodalForces& forces, Eigen::Matrix3Xd& tractions) const;
 
-  /// Between two steps; compliances come again by themselves.
-  void visit_state(StateArchive& state) {
-    state(offset_, rate_, motion_history_, acceleration_history_, corner_history_,
-          centrifugal_history_);
-    traction_history_.visit_state(state, tractions_);
-    state(solution_memory_);
-    state.check(solution_memory_.fits(system_.scheme().initial_components().size(),
-                                      static_cast<Eigen::Index>(3 * system_.model().nodes())));
-  }
+  /// Between two steps: these two histories of a body that has them, and in visit_state() all else.
+  /// Compliances come again by themselves.
+  LagHistory& centrifugal_history() { return centrifugal_history_; }
+  LagHistory& corner_history() { return corner_history_; }
+  void visit_state(StateArchive& state);
+  /// What these histories are of: inputs at corners, none without any, and nodes with tractions.
+  LoadShape corner_shape() const { return corners_ ? corners_->shape : LoadShape(); }
+  std::vector<int> touched_nodes() const { return traction_history_.nodes(); }
 
  private:
   Corrected correct() const;

@@ -65,7 +65,7 @@ void RigidFrame::integrate_momenta(const State& now, const State& before, const 
   for (int j = 0; j < count; ++j) {
     Vec3 acceleration = loads.forces[j] / mass_, torque = loads.torques[j];
     if (w > 0) {
-      const double t = time() + stage_times_[j] * dt_;
+      const double t = fall_time() + stage_times_[j] * dt_;
       acceleration += 2 * w * (drag.velocity[j] - t * gravity_) +
                       w * w * (drag.centre[j] - 0.5 * t * t * gravity_ - position);
       const Vec3 turning = 2 * w * drag.angular_velocity[j] - w * w * drag.lean[j];
@@ -100,7 +100,7 @@ RigidFrame::Stages RigidFrame::yield(const FrameLoads& loads) const {
   s.impulse = s.angular_impulse = Vec3::Zero();
   s.translation = {translation() + way};
   s.rotation = {r};
-  s.velocity = {way / dt_ - (time() + dt_) * gravity_};
+  s.velocity = {way / dt_ - (fall_time() + dt_) * gravity_};
   s.angular_momentum = {r * (inertia_ * (r.transpose() * (turn / dt_)))};
   s.turn = {state_.turn + turn};
   return s;
@@ -119,7 +119,7 @@ RigidFrame::Stages RigidFrame::stages(const FrameLoads& loads, const FrameDrag& 
   for (int i = 0; i < count; ++i) {
     Vec3 x = position;
     for (int j = 0; j < count; ++j) x += dt_ * integration_(i, j) * s.velocity[j];
-    const double t = time() + stage_times_[i] * dt_;
+    const double t = fall_time() + stage_times_[i] * dt_;
     s.translation.push_back(x + 0.5 * t * t * gravity_);
   }
   integrate_rotation(now, before, s);
@@ -130,7 +130,7 @@ RigidFrame::Stages RigidFrame::stages(const FrameLoads& loads, const FrameDrag& 
 void RigidFrame::measure_drag(const FrameDrag& drag, Stages& s) const {
   const double w = drag.rate;
   for (Eigen::Index i = 0; i < stage_times_.size(); ++i) {
-    const double t = time() + stage_times_[i] * dt_;
+    const double t = fall_time() + stage_times_[i] * dt_;
     const Vec3 velocity = s.velocity[i] + t * gravity_ - drag.velocity[i];
     s.drag.push_back(-mass_ * (2 * w * velocity + w * w * (s.translation[i] - drag.centre[i])));
   }
@@ -180,10 +180,22 @@ void RigidFrame::advance(const Stages& s) {
   previous_ = state_;
   ++step_;
   state_.velocity = s.velocity.back();
-  state_.position = s.translation.back() - 0.5 * time() * time() * gravity_;
+  state_.position = s.translation.back() - 0.5 * fall_time() * fall_time() * gravity_;
   state_.angular_momentum = s.angular_momentum.back();
   state_.rotation = orthonormalised(s.rotation.back());
   state_.turn = s.turn.back();
+}
+
+void RigidFrame::restart(const Vec3& gravity) {
+  fallen_ += step_;
+  step_ = 0;
+  if (gravity == gravity_) return;
+  // the past has fallen by the other gravity: both places are written as if it had begun now
+  const double t = fall_time();
+  for (State* state : {&state_, &previous_}) state->velocity += t * gravity;
+  state_.position += 0.5 * t * t * gravity;
+  previous_.position += (0.5 * t - dt_) * t * gravity;
+  fallen_ = 0;
 }
 
 Vec3 RigidFrame::impulse_of(const std::vector<Vec3>& forces) const {
@@ -218,7 +230,7 @@ Vec3 RigidFrame::spin() const {
 }
 
 Vec3 RigidFrame::translation() const {
-  return state_.position + 0.5 * time() * time() * gravity_;
+  return state_.position + 0.5 * fall_time() * fall_time() * gravity_;
 }
 
 RigidFrame::Stages RigidFrame::current() const {

@@ -62,7 +62,13 @@ class RigidFrame {
   Stages stages(const FrameLoads& loads, const FrameDrag& drag = {}) const;
   /// Takes the last stage as the new state.
   void advance(const Stages& stages);
-  void visit_state(StateArchive& state) { state(state_, previous_, step_); }
+  void visit_state(StateArchive& state) {
+    constexpr long kMost = 1L << 50;
+    state(state_, previous_, step_, fallen_);
+    state.check(step_ >= 0 && step_ < kMost && fallen_ >= 0 && fallen_ < kMost);
+  }
+  /// Sets the time to zero. Its state was restored from that of a frame with another gravity.
+  void restart(const Vec3& gravity);
   long step() const { return step_; }
 
   /// World position of the point x (relative to the centre of mass) with displacement u.
@@ -99,7 +105,7 @@ class RigidFrame {
 
   const Mat3& rotation() const { return state_.rotation; }
   Vec3 translation() const;
-  Vec3 velocity() const { return state_.velocity + time() * gravity_; }
+  Vec3 velocity() const { return state_.velocity + fall_time() * gravity_; }
   const Vec3& angular_momentum() const { return state_.angular_momentum; }
   /// World axes [rad/s].
   Vec3 angular_velocity() const;
@@ -109,6 +115,8 @@ class RigidFrame {
   double time() const { return static_cast<double>(step_) * dt_; }
 
  private:
+  /// Since the fall began: a frame that was restarted has fallen before the start [s].
+  double fall_time() const { return static_cast<double>(fallen_ + step_) * dt_; }
   static constexpr double kOrthonormal = 1e-6;  ///< how well rotations are so
   struct State {
     Vec3 position, velocity, angular_momentum, turn;
@@ -134,7 +142,7 @@ class RigidFrame {
   Mat3 inertia_, inverse_inertia_, initial_rotation_;
   Vec3 gravity_;
   State state_, previous_;  ///< without the fall under gravity
-  long step_ = 0;
+  long step_ = 0, fallen_ = 0;
   std::optional<double> mobility_;
 };
 

@@ -37,11 +37,18 @@ SurfaceLoad::SurfaceLoad(const TractionSpec& spec, const BodyGeometry& g,
   for (auto& [node, traction] : nodal) nodal_.emplace_back(node, traction / areas[node]);
 }
 
+SurfaceLoad::SurfaceLoad(const LoadShape& past)
+    : over_(true),
+      panels_(past.panels()),
+      force_(Eigen::Matrix3Xd::Zero(3, past.inputs())),
+      torque_(force_) {}
+
 void SurfaceLoad::make_columns(const ElasticSystem& system, const LoadAssembler& assembler) {
   columns_ = load_columns(system, assembler, panels_);
 }
 
 Eigen::VectorXd SurfaceLoad::values(double t, const Mat3& rotation) const {
+  if (over_) return Eigen::VectorXd::Zero(inputs());
   const double factor = profile_value(spec_.profile, t);
   if (follows_) return Eigen::VectorXd::Constant(1, factor);
   return factor * (rotation.transpose() * std::get<Vec3>(spec_.load));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dynamics/load_shape.hpp"
 #include "model/elastic_system.hpp"
 #include "scene/scene.hpp"
 
@@ -11,12 +12,15 @@ class SurfaceLoad {
  public:
   /// `initial_rotation`: body to world axes at the start.
   SurfaceLoad(const TractionSpec& spec, const BodyGeometry& geometry, const Mat3& initial_rotation);
+  /// A load of an earlier scene that is over: its values are zero, its columns are for its history.
+  explicit SurfaceLoad(const LoadShape& past);
 
   /// Integrates the load over its triangles for every node and lag, O(N x triangles); not needed
   /// for rigid bodies.
   void make_columns(const ElasticSystem& system, const LoadAssembler& assembler);
 
   const InputColumns& columns() const { return columns_; }
+  LoadShape shape() const { return {panels_, inputs()}; }
   Eigen::Index inputs() const { return force_.cols(); }
 
   /// Input values at time t [s] for a body with rotation `rotation`.
@@ -37,7 +41,7 @@ class SurfaceLoad {
 
  private:
   TractionSpec spec_;
-  bool follows_;
+  bool follows_ = true, over_ = false;
   std::vector<PanelLoad> panels_;
   InputColumns columns_;
   Eigen::Matrix3Xd force_, torque_;

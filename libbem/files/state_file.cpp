@@ -12,7 +12,7 @@
 namespace bem {
 namespace {
 
-constexpr std::string_view kStateMark = "BEM state 0004\n\n";
+constexpr std::string_view kStateMark = "BEM state 0005\n\n";
 static_assert(kStateMark.size() == 16);
 
 void free_digest(XXH3_state_s* state) {
@@ -90,6 +90,22 @@ void StateReader::bytes(void* data, std::size_t size) {
 
 void StateReader::finish() {
   if (left_ > 0) refuse();
+}
+
+void StateReader::skip_section() {
+  std::uint64_t size = 0;
+  (*this)(size);
+  check(size <= left_);
+  go_to({place().at + static_cast<long>(size), left_ - size});
+}
+
+StateReader::Place StateReader::place() const {
+  return {std::ftell(file_.get()), left_};
+}
+
+void StateReader::go_to(const Place& place) {
+  if (std::fseek(file_.get(), place.at, SEEK_SET) != 0) refuse();
+  left_ = place.left;
 }
 
 void StateReader::refuse() const {

@@ -21,11 +21,11 @@ class StateWriter : public StateArchive {
   explicit StateWriter(const std::string& path);
   ~StateWriter() override;
   bool restores() const override { return false; }
+  std::uint64_t left() const override { return UINT64_MAX; }
   void commit();
 
  protected:
   void bytes(void* data, std::size_t size) override;
-  std::uint64_t left() const override { return UINT64_MAX; }
   [[noreturn]] void refuse() const override;
 
  private:
@@ -44,12 +44,22 @@ class StateReader : public StateArchive {
  public:
   explicit StateReader(const std::string& path);
   bool restores() const override { return true; }
+  std::uint64_t left() const override { return left_; }
   /// Checks that all of the state has been visited.
   void finish();
 
+  /// Passes by what visit_section() has saved.
+  void skip_section();
+  /// A place in the file that can be gone back to.
+  struct Place {
+    long at = 0;
+    std::uint64_t left = 0;
+  };
+  Place place() const;
+  void go_to(const Place& place);
+
  protected:
   void bytes(void* data, std::size_t size) override;
-  std::uint64_t left() const override { return left_; }
   [[noreturn]] void refuse() const override;
 
  private:

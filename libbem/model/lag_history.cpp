@@ -1,5 +1,7 @@
 #include "model/lag_history.hpp"
 
+#include <algorithm>
+
 namespace bem {
 
 Eigen::MatrixXd lag_inputs(const Scheme& scheme) {
@@ -27,6 +29,10 @@ void LagHistory::push(const Eigen::MatrixXd& stages) {
   ring_[newest_].noalias() = stages * right_;
   zero_[newest_] = stages.isZero(0);
   if (family_) family_->analyse_columns(ring_[newest_], coefficients_[newest_]);
+}
+
+bool LagHistory::is_zero() const {
+  return std::all_of(zero_.begin(), zero_.end(), [](char zero) { return zero != 0; });
 }
 
 void LagHistory::visit_state(StateArchive& state) {

@@ -32,6 +32,8 @@ class LagHistory {
   double factor(int k) const { return std::pow(window_, k); }
   /// Whether all values of a lag are zero, so that its matrices need not be read.
   bool is_zero(int k) const { return zero_[slot(k)]; }
+  /// Whether those of all lags are.
+  bool is_zero() const;
   int length() const { return static_cast<int>(ring_.size()); }
 
  private:

@@ -44,6 +44,15 @@ void NodalHistory::push(const NodalLoad& load) {
   }
 }
 
+std::vector<int> NodalHistory::nodes() const {
+  std::vector<int> out;
+  for (const Lag& lag : ring_)
+    for (std::size_t i = 0; i < lag.columns.size(); i += 3) out.push_back(lag.columns[i] / 3);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 void NodalHistory::visit_state(StateArchive& state, const NodalTractions* tractions) {
   state(ring_, newest_);
   state.check(newest_ < ring_.size() || newest_ == 0);

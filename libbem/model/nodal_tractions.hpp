@@ -34,6 +34,8 @@ class NodalHistory {
   void push(const NodalLoad& load);
   /// `tractions`: whose nodes have carried them all, or null if none has.
   void visit_state(StateArchive& state, const NodalTractions* tractions);
+  /// Those that carry any at some lag, ascending.
+  std::vector<int> nodes() const;
   /// The window's weight on a lag.
   double factor(int k) const { return std::pow(window_, k); }
 

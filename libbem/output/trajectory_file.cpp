@@ -90,6 +90,12 @@ std::string TrajectoryFile::text(const std::string& object, const std::string& a
   return file_.has_attribute(object, attribute) ? file_.string_attribute(object, attribute) : "";
 }
 
+double TrajectoryFile::number(const std::string& object, const std::string& attribute) const {
+  const double value = file_.double_attribute(object, attribute);
+  check_finite(object + ": " + attribute, &value, 1);
+  return value;
+}
+
 std::int64_t TrajectoryFile::integer(const std::string& object, const std::string& attribute,
                                      std::int64_t otherwise) const {
   return file_.has_attribute(object, attribute) ? file_.int_attribute(object, attribute)

@@ -47,6 +47,8 @@ class TrajectoryFile {
   Hdf5Dims row_extents(const std::string& path) const;
   /// Text of an attribute; empty if there is none.
   std::string text(const std::string& object, const std::string& attribute) const;
+  /// Number of an attribute, which must be there and finite.
+  double number(const std::string& object, const std::string& attribute) const;
   /// Integer of an attribute, or `otherwise` if there is none.
   std::int64_t integer(const std::string& object, const std::string& attribute,
                        std::int64_t otherwise) const;

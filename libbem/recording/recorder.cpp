@@ -1,6 +1,6 @@
 #include "recording/recorder.hpp"
 
-#include "files/digest.hpp"
+#include "mesh/mesh_digest.hpp"
 #include "recording/body_series.hpp"
 
 #include <algorithm>
@@ -10,17 +10,6 @@ namespace {
 
 const FrameQuantity kVelocities{"velocities", "m/s", 3}, kTractions{"tractions", "Pa", 3},
     kStress{"stress", "Pa", 6}, kVonMises{"von_mises", "Pa", 1};
-
-std::string digest_of_mesh(const std::vector<Vec3>& vertices,
-                           const std::vector<Triangle>& triangles) {
-  std::string bytes;
-  const auto add = [&](const auto& values) {
-    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof values[0]);
-  };
-  add(vertices);
-  add(triangles);
-  return digest_of(bytes);
-}
 
 TrajectoryBody shown_surface(const ShownBody& body) {
   const TriangleMesh& mesh = body.geometry->input;
@@ -103,8 +92,7 @@ void Recorder::add_body(const ShownBody& body, std::size_t index) {
     shown.index = index;
     shown.mass = body.geometry->mass.mass;
     shown.archive_digest = body.archive_digest;
-    shown.mesh_digest =
-        digest_of_mesh(body.geometry->input.vertices, body.geometry->input.triangles);
+    shown.mesh_digest = mesh_digest(body.geometry->input);
     contents_.bodies.push_back(std::move(shown));
   };
   if (body.render) add(shown_mesh(body));

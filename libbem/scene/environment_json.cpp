@@ -2,6 +2,7 @@
 #include "scene/repeat.hpp"
 #include "scene/scene_parts.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace bem {
@@ -125,6 +126,26 @@ ContactSpec read_contact(const JsonValue& value) {
     contact.solver = solver->choice<FrictionMethod>();
   reader.finish();
   return contact;
+}
+
+InitialStateSpec read_initial_state(const JsonValue& value, const ThingNames& bodies) {
+  JsonReader reader(value, "the initial state");
+  InitialStateSpec state;
+  state.location = value.location();
+  state.is_checkpoint = reader.required_one_of({"trajectory", "checkpoint"}) == "checkpoint";
+  state.file = read_path(reader.required(state.is_checkpoint ? "checkpoint" : "trajectory"));
+  if (state.is_checkpoint) reader.refuse("frame", "is allowed only beside \"trajectory\"");
+  constexpr int kMost = std::numeric_limits<int>::max();
+  if (const auto frame = reader.optional("frame")) state.frame = frame->integer_in(-kMost, kMost);
+  if (const auto names = reader.optional("bodies"))
+    for (const JsonValue& name : names->items(1, "array of bodies")) {
+      const std::size_t body = thing_named(name.text(), name.location(), bodies, "a body");
+      if (std::find(state.bodies.begin(), state.bodies.end(), body) != state.bodies.end())
+        throw name.error("the body " + in_quotes(name.text()) + " is named twice");
+      state.bodies.push_back(body);
+    }
+  reader.finish();
+  return state;
 }
 
 OutputSpec read_output(const JsonValue& value) {

@@ -117,6 +117,15 @@ inline std::string simulation_name(const std::string& body) {
   return body + "-simulation";
 }
 
+/// Where bodies start if not as the scene places them (simulation/initial_state.hpp).
+struct InitialStateSpec {
+  FilePath file;
+  bool is_checkpoint = false;       ///< else a trajectory
+  int frame = -1;                   ///< of a trajectory; negative: from the end
+  std::vector<std::size_t> bodies;  ///< indices in Scene::bodies; none: all that the file has
+  Location location;
+};
+
 struct Scene {
   double time_step = 0;          ///< [s], > 0; 0 until an automatic one is chosen
   double duration = 0;           ///< [s], >= 0
@@ -126,6 +135,7 @@ struct Scene {
   std::vector<JointSpec> joints;
   ContactSpec contact;
   OutputSpec output;
+  std::optional<InitialStateSpec> initial_state;
   std::vector<std::string> files;  ///< the scene file, and those that it includes
   std::string text;                ///< of the scene file
   Location location;

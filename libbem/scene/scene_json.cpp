@@ -150,13 +150,14 @@ Scene scene_of(const JsonDocument& document) {
   read_things(bodies, read_bodies, names, scene.bodies);
   if (const auto obstacles = reader.optional("obstacles"))
     read_things(obstacles->items(0, "array of obstacles"), read_obstacles, names, scene.obstacles);
-  if (const auto joints = reader.optional("joints")) {
-    const ThingNames known = names_of(scene.bodies);
+  const ThingNames known = names_of(scene.bodies);
+  if (const auto joints = reader.optional("joints"))
     for (const JsonValue& joint : joints->items(0, "array of joints"))
       scene.joints.push_back(read_joint(joint, known));
-  }
   if (const auto contact = reader.optional("contact")) scene.contact = read_contact(*contact);
   if (const auto output = reader.optional("output")) scene.output = read_output(*output);
+  if (const auto state = reader.optional("initial_state"))
+    scene.initial_state = read_initial_state(*state, known);
   if (scene.output.surface == OutputSurface::both) names.check_simulation_names(scene.bodies);
   reader.optional("include");  // expanded_scene() has put it in
   if (const auto defaults = reader.optional("defaults")) check_defaults(*defaults);

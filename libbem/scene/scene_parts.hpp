@@ -45,5 +45,6 @@ std::vector<ObstacleSpec> read_obstacles(const JsonValue& value);
 JointSpec read_joint(const JsonValue& value, const ThingNames& bodies);
 ContactSpec read_contact(const JsonValue& value);
 OutputSpec read_output(const JsonValue& value);
+InitialStateSpec read_initial_state(const JsonValue& value, const ThingNames& bodies);
 
 }  // namespace bem

@@ -22,6 +22,7 @@ const char* const kSchemaText = R"json({
     "joints": {"description": "Connections of bodies; default none.", "type": "array", "items": {"$ref": "#/$defs/joint"}},
     "contact": {"$ref": "#/$defs/contact"},
     "output": {"$ref": "#/$defs/output"},
+    "initial_state": {"$ref": "#/$defs/initial_state"},
     "include": {"$ref": "#/$defs/include"},
     "defaults": {
       "description": "Members of all bodies or obstacles that do not have them.",
@@ -331,6 +332,18 @@ const char* const kSchemaText = R"json({
         "every": {"description": "Steps from one written frame to the next; default 1.", "type": "integer", "minimum": 1, "maximum": 2147483647},
         "fields": {"description": "Positions are always written; default [\"positions\"].", "type": "array", "minItems": 1, "uniqueItems": true, "items": {"enum": "OutputField"}},
         "surface": {"description": "What is written of bodies with a render mesh: it, the simulated surface, or both, the latter as NAME-simulation; default render.", "enum": "OutputSurface"}
+      }
+    },
+    "initial_state": {
+      "description": "Bodies start as they are in a trajectory or checkpoint of another run that has bodies of the same names; default: where the scene places them.",
+      "type": "object", "additionalProperties": false,
+      "oneOf": [{"required": ["trajectory"]}, {"required": ["checkpoint"]}],
+      "dependentRequired": {"frame": ["trajectory"]},
+      "properties": {
+        "trajectory": {"description": "A trajectory.h5: place, rotation and velocities of bodies, which start undeformed.", "$ref": "#/$defs/path"},
+        "frame": {"description": "Index of the frame; negative: from the end; default -1, the last.", "type": "integer", "minimum": -2147483647, "maximum": 2147483647},
+        "checkpoint": {"description": "A checkpoint.bin: all of the bodies' motion with their deformation and its history.", "$ref": "#/$defs/path"},
+        "bodies": {"description": "Names of the bodies that start so; default: all that the file has.", "type": "array", "minItems": 1, "uniqueItems": true, "items": {"type": "string"}}
       }
     }
   }

@@ -22,6 +22,7 @@ class ArchiveSource : public ModelSource {
 
   std::shared_ptr<const BodyModel> model(const FilePath& path) override;
   TractionData tractions(const FilePath& path, const std::vector<int>& nodes) override;
+  std::string digest(const FilePath& path) override { return open(path).user_block().digest; }
 
  private:
   TriangleMesh obstacle_mesh(const FilePath& mesh) override;

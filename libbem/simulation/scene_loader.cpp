@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "mesh/describe.hpp"
 #include "scene/location.hpp"
+#include "simulation/initial_state.hpp"
 #include "simulation/placement.hpp"
 
 #include <algorithm>
@@ -57,7 +58,8 @@ std::shared_ptr<const BodyModel> rigid_with_scheme(const BodyModel& model, const
 /// The steps of load_scene().
 class SceneLoader {
  public:
-  SceneLoader(Scene& scene, ModelSource& source) : scene_(scene), source_(source) {
+  SceneLoader(Scene& scene, ModelSource& source, const InitialState* initial)
+      : scene_(scene), source_(source), initial_(initial) {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       by_archive_[scene.bodies[b].archive.resolved].push_back(static_cast<int>(b));
   }
@@ -65,6 +67,7 @@ class SceneLoader {
   LoadedScene run() {
     load_models();
     const std::vector<Scheme> schemes = body_schemes(scene_, deformable());
+    if (initial_) initial_->check(starting_bodies(schemes));
     for (const auto& [path, users] : by_archive_) {
       SharedModel& shared = models_[path];
       if (shared.model->kind == ModelKind::rigid)
@@ -86,10 +89,12 @@ class SceneLoader {
   std::vector<const Discretisation*> deformable() const;
   void load_shared_parts(const Users& users, SharedModel& shared);
   std::vector<int> touched_nodes(const Users& users, const BodyModel& model) const;
+  std::vector<StartingBody> starting_bodies(const std::vector<Scheme>& schemes);
   void make_bodies();
 
   Scene& scene_;
   ModelSource& source_;
+  const InitialState* initial_;
   std::map<std::string, Users> by_archive_;
   std::map<std::string, SharedModel> models_;
   LoadedScene out_;
@@ -107,6 +112,7 @@ void SceneLoader::load_models() {
       check_archive(scene_, scene_.bodies[b], shared.model->kind, shared.model->discretisation);
     }
   }
+  for (const BodySpec& body : scene_.bodies) out_.digests.push_back(source_.digest(body.archive));
   place_bodies(scene_, geometries, source_);
   out_.plan = plan_joints(scene_, geometries);
 }
@@ -117,6 +123,16 @@ std::vector<const Discretisation*> SceneLoader::deformable() const {
   for (const BodySpec& body : scene_.bodies) {
     const BodyModel& model = *models_.at(body.archive.resolved).model;
     out.push_back(model.kind == ModelKind::rigid ? nullptr : &model.discretisation);
+  }
+  return out;
+}
+
+std::vector<StartingBody> SceneLoader::starting_bodies(const std::vector<Scheme>& schemes) {
+  std::vector<StartingBody> out;
+  for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+    const BodyModel& model = *models_[scene_.bodies[b].archive.resolved].model;
+    out.push_back({&scene_.bodies[b], out_.digests[b], &model.geometry, model.kind,
+                   schemes[b].name(), scene_.time_step});
   }
   return out;
 }
@@ -147,7 +163,7 @@ void SceneLoader::load_shared_parts(const Users& users, SharedModel& shared) {
         make_load_assembler(model.geometry.nodes, model.geometry.extent, model.discretisation);
 }
 
-/// Nodes that joints or contacts may act on, of bodies that share a model.
+/// Nodes that joints or contacts may act on, or have acted on, of bodies that share a model.
 std::vector<int> SceneLoader::touched_nodes(const Users& users, const BodyModel& model) const {
   std::vector<char> touched(model.nodes(), 0), available(model.nodes(), model.loads == Loads::all);
   for (int node : model.loaded_nodes) available[node] = 1;
@@ -163,6 +179,9 @@ std::vector<int> SceneLoader::touched_nodes(const Users& users, const BodyModel&
                         " that is fixed, moved or joined; make it again with --loads all");
       touched[n.node] = 1;
     }
+  if (initial_)
+    for (int b : users)
+      for (int node : initial_->touched(b)) touched[node] = available[node];
   std::vector<int> nodes;
   for (std::size_t i = 0; i < touched.size(); ++i)
     if (touched[i]) nodes.push_back(static_cast<int>(i));
@@ -224,8 +243,8 @@ std::vector<Scheme> body_schemes(const Scene& scene,
   return schemes;
 }
 
-LoadedScene load_scene(Scene& scene, ModelSource& source) {
-  return SceneLoader(scene, source).run();
+LoadedScene load_scene(Scene& scene, ModelSource& source, const InitialState* initial) {
+  return SceneLoader(scene, source, initial).run();
 }
 
 }  // namespace bem

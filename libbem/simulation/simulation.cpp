@@ -1,8 +1,11 @@
 #include "simulation/simulation.hpp"
 
 #include "base/error.hpp"
+#include "base/state_section.hpp"
 #include "dynamics/body_output.hpp"
+#include "dynamics/body_start.hpp"
 #include "scene/motion.hpp"
+#include "simulation/initial_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,11 +42,14 @@ long step_count(double duration, double time_step) {
   return std::lround(duration / time_step);
 }
 
-Simulation::Simulation(const Scene& scene, ModelSource& source)
-    : scene_(scene), loaded_(load_scene(scene_, source)) {
+Simulation::Simulation(const Scene& scene, ModelSource& source) : scene_(scene) {
+  std::optional<InitialState> initial;
+  if (scene_.initial_state) initial.emplace(scene_);
+  loaded_ = load_scene(scene_, source, initial ? &*initial : nullptr);
   std::vector<Body>& bodies = loaded_.bodies;
   const ContactTolerances tolerances(scene_.contact.tolerance, smallest_extent(bodies));
   constraints_.emplace(loaded_.plan, bodies, tolerances, scene_.contact.solver);
+  if (initial) initial->apply(loaded_.plan, bodies, *constraints_);
   momentum_.begin(bodies);
   if (!scene_.contact.enabled) return;
   collisions_.emplace(scene_, bodies, obstacle_meshes(scene_, source), joined_bodies(scene_),
@@ -137,13 +143,27 @@ void Simulation::release_handle(std::size_t body, std::size_t handle) {
 }
 
 void Simulation::visit_state(StateArchive& state) {
-  state(steps_, statistics_, momentum_, times_);
+  state(steps_);
+  visit_bodies(state);
+  state(statistics_, momentum_, times_);
   if (contacts_) state(*contacts_);
-  for (Body& body : loaded_.bodies) {
-    state(body);
+  state(*constraints_);
+}
+
+/// First and each with its size, so that they can be found by who knows nothing of the scene
+/// (simulation/saved_bodies.hpp).
+void Simulation::visit_bodies(StateArchive& state) {
+  std::uint64_t count = loaded_.bodies.size();
+  state(count);
+  state.check(count == loaded_.bodies.size());
+  for (std::size_t b = 0; b < loaded_.bodies.size(); ++b) {
+    Body& body = loaded_.bodies[b];
+    BodyRecord record = BodyStart::record_of(body, loaded_.digests[b]);
+    state(record);
+    state.check(record.name == body.name());
+    visit_section(state, [&](StateArchive& s) { s(body); });
     state.check(body.frame().step() == steps_);
   }
-  state(*constraints_);
 }
 
 }  // namespace bem

@@ -11,7 +11,8 @@ namespace bem {
 /// A scene in motion. Bit-identical for any number of threads.
 class Simulation {
  public:
-  /// Loads every archive once. Throws ErrorCode::archive if one does not fit the scene.
+  /// Loads every archive once. Throws ErrorCode::archive if one does not fit the scene, and what
+  /// InitialState does if the scene has an initial state that its bodies cannot take.
   Simulation(const Scene& scene, ModelSource& source);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -61,6 +62,7 @@ class Simulation {
 
  private:
   Motion next_motion(const Motion& motion, Keyframe pose) const;
+  void visit_bodies(StateArchive& state);
   void move_freely();
   void end_step();
 

@@ -92,19 +92,23 @@ void archives(const fs::path& folder) {
   archive(folder, "rigid", small_model("bdf1", "none", InverseKind::dense, ModelKind::rigid));
 }
 
-void checkpoint(const fs::path& folder, bool iterative) {
+/// The first byte says what checkpoint.cpp does with the rest.
+void checkpoint(const fs::path& folder, bool iterative, bool start) {
   bem::MemorySource source;
   source.add("b", iterative ? small_model("bdf2", "none", InverseKind::iterative)
                             : small_model("radau2", "lowrank"));
-  Simulation simulation(small_scene(), source);
+  Simulation simulation(start ? loaded_scene() : small_scene(), source);
   for (int step = 0; step < 3; ++step) simulation.step();
-  const std::string path = (folder / (iterative ? "iterative" : "dense")).string();
+  const std::string path =
+      (folder / ((iterative ? "iterative" : "dense") + std::string(start ? "-start" : "")))
+          .string();
   StateWriter writer(path);
   writer(simulation);
   writer.commit();
   constexpr std::size_t kMark = 16, kDigest = 16;
   const std::string bytes = bytes_of(path);
-  write(path, (iterative ? '\1' : '\0') + bytes.substr(kMark, bytes.size() - kMark - kDigest));
+  write(path, static_cast<char>((iterative ? 1 : 0) + (start ? 2 : 0)) +
+                  bytes.substr(kMark, bytes.size() - kMark - kDigest));
 }
 
 }  // namespace
@@ -119,6 +123,7 @@ int main(int argc, char** argv) {
   materials(folder / "material");
   scenes(folder / "scene", argv[2]);
   archives(folder / "archive");
-  for (bool iterative : {false, true}) checkpoint(folder / "checkpoint", iterative);
+  for (bool iterative : {false, true})
+    for (bool start : {false, true}) checkpoint(folder / "checkpoint", iterative, start);
   return 0;
 }

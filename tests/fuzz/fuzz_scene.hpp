@@ -50,4 +50,14 @@ inline bem::Scene small_scene(bem::Loads loads = bem::Loads::all) {
   return scene;
 }
 
+/// The same with a load besides, in whose history other scenes have to put something else.
+inline bem::Scene loaded_scene() {
+  bem::Scene scene = small_scene();
+  bem::TractionSpec pull;
+  pull.select = bem_test::box_selection(bem::Vec3(-1, -1, -1), bem::Vec3(1, 1, 1));
+  pull.load = bem::Vec3(100, 0, 0);
+  scene.bodies[0].tractions.push_back(pull);
+  return scene;
+}
+
 }  // namespace bem_fuzz

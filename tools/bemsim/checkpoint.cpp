@@ -50,6 +50,8 @@ RunIdentity identity_of(const Plan& plan, const Options& options) {
   for (const ObstacleSpec& obstacle : plan.scene.obstacles)
     if (const auto* mesh = std::get_if<MeshObstacle>(&obstacle.shape))
       out.archives += file_digest(mesh->mesh.resolved);
+  if (const auto& state = plan.scene.initial_state)
+    out.archives += file_digest(state->file.resolved);
   return out;
 }
 
@@ -78,7 +80,8 @@ std::unique_ptr<StateReader> open_checkpoint(const std::string& directory,
   if (earlier.scene != identity.scene)
     refuse(ErrorCode::invalid_input, "is of another scene or output; only the duration may change");
   if (earlier.archives != identity.archives)
-    refuse(ErrorCode::archive, "was made with other archives, obstacles or render meshes");
+    refuse(ErrorCode::archive,
+           "was made with other archives, obstacles, render meshes or initial state");
   if (steps > planned_steps)
     refuse(ErrorCode::usage, "is of step " + std::to_string(steps) + ", beyond the end at step " +
                                  std::to_string(planned_steps));

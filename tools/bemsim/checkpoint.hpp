@@ -3,20 +3,12 @@
 #include "files/state_file.hpp"
 #include "options.hpp"
 #include "plan.hpp"
+#include "simulation/run_identity.hpp"
 
 #include <memory>
 #include <string>
 
 namespace bem {
-
-/// What a run that goes on must have in common with the one that it goes on from.
-struct RunIdentity {
-  std::string program;   ///< name and version
-  std::string scene;     ///< but for its duration, with the output that is asked for
-  std::string archives;  ///< digests of archives, obstacles and render meshes
-
-  void visit_state(StateArchive& state) { state(program, scene, archives); }
-};
 
 /// Reads the scene's file again. Throws ErrorCode::invalid_input, ErrorCode::resources.
 RunIdentity identity_of(const Plan& plan, const Options& options);

@@ -31,6 +31,7 @@ void check_files(const Options& options, const bem::Scene* scene) {
       if (body.source) files.reads(body.source->material_path.resolved);
       if (body.render_mesh) files.reads(body.render_mesh->resolved);
     }
+    if (scene->initial_state) files.reads(scene->initial_state->file.resolved);
     for (const bem::ObstacleSpec& obstacle : scene->obstacles)
       if (const auto* mesh = std::get_if<bem::MeshObstacle>(&obstacle.shape))
         files.reads(mesh->mesh.resolved);

@@ -8,6 +8,7 @@
 #include "render_meshes.hpp"
 #include "scene/motion.hpp"
 #include "scene/selection.hpp"
+#include "simulation/initial_state.hpp"
 #include "simulation/placement.hpp"
 #include "simulation/simulation.hpp"
 
@@ -69,6 +70,19 @@ void plan_obstacles(Plan& plan, ArchiveSource& source) {
     for (const std::string& warning : plan.obstacles.back().surface->warnings)
       plan.warnings.push_back(where(spec.location) + ": " + warning);
   }
+}
+
+/// Whether the bodies can start as the scene says, and a note of what that means.
+void check_initial_state(Plan& plan, const std::vector<Scheme>& schemes) {
+  std::vector<StartingBody> bodies;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    const Archive& archive = *plan.bodies[b].archive;
+    bodies.push_back({plan.bodies[b].spec, archive.user_block().digest, &archive.geometry(),
+                      archive.kind(), schemes[b].name(), plan.scene.time_step});
+  }
+  const InitialState state(plan.scene);
+  state.check(bodies);
+  plan.notes.push_back(state.text(bodies));
 }
 
 /// Matrices and columns of inputs are shared by the bodies of an archive, histories are not.
@@ -257,7 +271,7 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
   for (const PlannedBody& body : plan->bodies)
     deformable.push_back(
         body.archive->kind() == ModelKind::rigid ? nullptr : &body.archive->discretisation());
-  body_schemes(plan->scene, deformable);
+  const std::vector<Scheme> schemes = body_schemes(plan->scene, deformable);
   place_bodies(plan->scene, geometries, source);
   JointPlan joints = plan_joints(plan->scene, geometries);
   for (const Joint& joint : joints.joints)
@@ -265,6 +279,7 @@ std::unique_ptr<Plan> make_plan(const Options& options, Scene scene, ArchiveSour
       ++(joint.handle ? plan->bodies[joint.a.body].handled : plan->bodies[joint.a.body].fixed);
   plan->welds = std::move(joints.welds);
   if (plan->scene.contact.enabled) plan_obstacles(*plan, source);
+  if (plan->scene.initial_state) check_initial_state(*plan, schemes);
   plan_render_meshes(*plan);
   plan->memory = memory_of(plan->bodies, plan->scene.contact.enabled);
   add_warnings(*plan);

@@ -94,8 +94,9 @@ class Run {
   }
 
   void restore(StateReader& earlier) {
+    earlier(*simulation_);
     earlier.resizable(kept_);
-    earlier(statistics_, timer_, *simulation_);
+    earlier(statistics_, timer_);
     earlier.finish();
     earlier.check(simulation_->steps() == saved_ && saved_ >= 0 &&
                   statistics_.frames() == plan_.schedule.count(saved_));
@@ -113,7 +114,7 @@ class Run {
     if (steps == saved_) return;
     timer_.begin(kCheckpointPhase);
     OutputRecords records = writers_->sync();
-    save_checkpoint(options_.output, identity_, steps, records, statistics_, timer_, *simulation_);
+    save_checkpoint(options_.output, identity_, steps, *simulation_, records, statistics_, timer_);
     saved_ = steps;
   }
 

@@ -14,6 +14,10 @@ namespace bem {
 namespace {
 
 void refuse_what_has_one_mesh(const Scene& scene) {
+  if (scene.initial_state)
+    throw error_at(scene.initial_state->location,
+                   "--convergence compares runs with other meshes and time steps, which cannot "
+                   "start from a state of this one");
   for (const BodySpec& body : scene.bodies) {
     if (!body.source || !body.archive.resolved.empty())
       throw error_at(body.archive.location,

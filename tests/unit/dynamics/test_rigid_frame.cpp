@@ -1,6 +1,8 @@
 #include "dynamics/rigid_frame.hpp"
 #include "dynamics/rotation.hpp"
+#include "files/state_file.hpp"
 #include "support/schemes.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <random>
 #include <string>
@@ -281,5 +283,49 @@ TEST_CASE("drag is that of a critically damped oscillator, and its force what it
     INFO(scheme << ": errors " << error[0] << ", " << error[1]);
     CHECK(error[0] < 0.1);
     CHECK(std::log2(error[0] / error[1]) > order - 0.4);
+  }
+}
+
+TEST_CASE("a frame that is restarted goes on as before, and then falls by its own gravity") {
+  const Vec3 other(1, 2, 3);
+  for (const char* scheme : kSchemes) {
+    for (bool same : {true, false}) {
+      INFO(scheme << ", same gravity: " << same);
+      RigidFrame frame = make_frame(scheme, 0.01, thrown());
+      const FrameLoads loads = constant_loads(scheme, {1, -2, 3}, {0.1, 0.2, -0.1});
+      for (int n = 0; n < 5; ++n) frame.advance(frame.stages(loads));
+      RigidFrame next = frame;  // or one that is made for another gravity and takes its state
+      if (!same) {
+        InitialMotion motion = thrown();
+        motion.gravity = other;
+        next = make_frame(scheme, 0.01, motion);
+        const test::TemporaryFolder folder("frame");
+        StateWriter writer(folder / "s");
+        writer(frame);
+        writer.commit();
+        StateReader reader(folder / "s");
+        reader(next);
+      }
+      next.restart(thrown().gravity);
+      CHECK(next.time() == 0);
+      CHECK((next.translation() - frame.translation()).norm() < 1e-14);
+      CHECK((next.velocity() - frame.velocity()).norm() < 1e-13);
+      if (same) {
+        for (int n = 0; n < 5; ++n) frame.advance(frame.stages(loads));
+        for (int n = 0; n < 5; ++n) next.advance(next.stages(loads));
+        CHECK(next.translation() == frame.translation());
+        CHECK(next.rotation() == frame.rotation());
+        continue;
+      }
+      // what is not gravity goes on, so that the difference to the first is that of two falls
+      for (int n = 0; n < 5; ++n) frame.advance(frame.stages(loads));
+      for (int n = 0; n < 5; ++n) next.advance(next.stages(loads));
+      const double t = next.time();
+      const Vec3 fall = 0.5 * t * t * (other - thrown().gravity);
+      CHECK((next.translation() - frame.translation() - fall).norm() < 1e-13);
+      CHECK((next.velocity() - frame.velocity() - t * (other - thrown().gravity)).norm() < 1e-12);
+      CHECK((next.momentum() - frame.momentum() - kMass * t * (other - thrown().gravity)).norm() <
+            1e-12);
+    }
   }
 }

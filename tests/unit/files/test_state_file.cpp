@@ -1,4 +1,5 @@
 #include "base/error.hpp"
+#include "base/state_section.hpp"
 #include "files/state_file.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -232,4 +233,46 @@ TEST_CASE("sizes that the data cannot fill are not believed") {
     CHECK(code_of({n, n, 8}, Eigen::MatrixXd()) == 4);
   }
   CHECK(code_of({2, 0, 0}, std::vector<double>()) == 0);
+}
+
+TEST_CASE("a section can be passed by and gone back to") {
+  const test::TemporaryFolder folder("state_section");
+  Sample first = full_sample(), second = full_sample();
+  second.count = 8;
+  {
+    StateWriter writer(folder / "s");
+    for (Sample* sample : {&first, &second})
+      visit_section(writer, [&](StateArchive& state) { state(*sample); });
+    writer.commit();
+  }
+  StateReader reader(folder / "s");
+  const StateReader::Place start = reader.place();
+  Sample sample;
+  const auto read = [&] { visit_section(reader, [&](StateArchive& state) { state(sample); }); };
+  reader.skip_section();
+  read();
+  CHECK(sample.count == 8);
+  reader.finish();
+  reader.go_to(start);
+  read();
+  CHECK(sample.count == 7);
+  CHECK(sample.matrix == first.matrix);
+  reader.skip_section();
+  reader.finish();
+}
+
+TEST_CASE("a section of another size is refused") {
+  const test::TemporaryFolder folder("state_section_size");
+  const auto refused = [&](std::uint64_t size) {
+    StateWriter writer(folder / "s");
+    Sample sample = full_sample();
+    writer(size, sample);
+    writer.commit();
+    StateReader reader(folder / "s"), skipping(folder / "s");
+    CHECK_THROWS_AS(visit_section(reader, [&](StateArchive& state) { state(sample); }), Error);
+    if (size > (1 << 20)) CHECK_THROWS_AS(skipping.skip_section(), Error);
+  };
+  for (std::uint64_t size :
+       {std::uint64_t(0), std::uint64_t(100), std::uint64_t(1) << 40, UINT64_MAX})
+    refused(size);
 }

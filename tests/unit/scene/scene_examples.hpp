@@ -46,6 +46,7 @@ inline const std::string& full_scene() {
               {"type": "weld", "a": {"body": "left"}, "b": {"body": "right"}, "tolerance": 1e-3} ],
   "contact": {"enabled": true, "self": false, "tolerance": 1e-5, "friction_combine": "average", "solver": "nsgs"},
   "output": {"formats": ["hdf5", "obj"], "every": 3, "fields": ["positions", "tractions"], "surface": "both"},
+  "initial_state": {"trajectory": "runs/drop.h5", "frame": -3, "bodies": ["soft", "left"]},
   "include": [],
   "defaults": {"body": {"friction": 0.6}, "obstacle": {"friction": 0.7}} })json";
   return text;

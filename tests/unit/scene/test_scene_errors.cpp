@@ -61,7 +61,7 @@ TEST_CASE("an unknown key is answered with the nearest valid one") {
           "friction, fixed, handles, tractions, groups, repeat, include)");
   REQUIRE(world_error("  @\"colour\": 1") ==
           "/colour: unknown key (allowed: version, time_step, duration, gravity, bodies, "
-          "obstacles, joints, contact, output, include, defaults)");
+          "obstacles, joints, contact, output, initial_state, include, defaults)");
   REQUIRE_THAT(body_error("@\"weather\": true"),
                Catch::StartsWith("/bodies/0/weather: unknown key ("));
   REQUIRE(minimal("\"archive\"", "@\"archiv\"") ==

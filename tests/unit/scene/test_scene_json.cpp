@@ -116,6 +116,11 @@ TEST_CASE("a scene that uses every key is read completely: a body") {
   REQUIRE(s.bodies[6].name == "brick-1-0-1");
   REQUIRE((s.bodies[6].position - Vec3(1, 0, 3)).cwiseAbs().maxCoeff() <= 0.01);
   REQUIRE(s.obstacles[4].name == "post-2");
+  const InitialStateSpec& state = s.initial_state.value();
+  REQUIRE(state.file.resolved == "dir/runs/drop.h5");
+  REQUIRE_FALSE(state.is_checkpoint);
+  REQUIRE(state.frame == -3);
+  REQUIRE(state.bodies == std::vector<std::size_t>{7, 1});
 }
 
 TEST_CASE("a scene that uses every key is read completely: what archives are computed from") {
