@@ -33,7 +33,7 @@ class Recode(CliCase):
                 self.assertIn("stiffness", archive["matrices"])
             # bemprecomp relates errors of G to all lags, of which the archive lacks lag 0
             known = [line for line in different if not line.startswith("matrices/g/")]
-            self.assertLess(max(float(line.split("relative error ")[1]) for line in known), 1e-2)
+            self.assertLess(max(float(line.split("relative error ")[1]) for line in known), 2e-2)  # of the smallest: the tolerance is that of all lags
             self.assertFalse([line for line in lines if line.startswith("provenance")], lines)
 
     def test_archives_of_collocation_have_no_stiffness(self):
