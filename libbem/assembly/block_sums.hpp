@@ -18,7 +18,7 @@ struct BlockSums {
   AlignedVector<T> strain;                   ///< [row][3 axes x 6][lane]
   AlignedVector<double> static_h, static_g;  ///< [row][node or hat][kStaticEntry]
 
-  /// Zeros; `rows` may be of anything that is combined to rows later.
+  /// Zeros.
   void start(std::size_t rows, const SurfacePatch& y, std::size_t lane_count) {
     lanes = lane_count;
     nodes = y.nodes.size();
@@ -29,15 +29,6 @@ struct BlockSums {
     set_zero(static_h, rows * nodes * kStaticEntry);
     set_zero(static_g, rows * hats * kStaticEntry);
   }
-};
-
-/// Rows of a patch of x that are wanted, those of nodes [first, last), and where they go.
-struct PatchRows {
-  std::vector<int> rows;  ///< counted from the first wanted row, ascending
-  SparseRows shapes, midpoints;
-  std::array<SparseRows, 3> curls_at;  ///< of SurfacePatch, wanted rows alone
-
-  PatchRows(const SurfacePatch& patch, int first, int last);
 };
 
 }  // namespace bem

@@ -3,6 +3,7 @@
 #include "assembly/block_sums.hpp"
 #include "assembly/galerkin_static.hpp"
 #include "assembly/pair_integrals.hpp"
+#include "assembly/patch_rows.hpp"
 
 namespace bem {
 

@@ -14,7 +14,7 @@ namespace bem {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// `count` vectors of a row of AddCombinedRows(), or of CombineRows() if there is nothing before.
+/// `count` vectors of a row of CombineAll().
 template <int count, bool adds, class D, class T = hn::TFromD<D>>
 HWY_INLINE void CombineRow(D d, const SparseRows& rows, int row, const T* from, std::size_t stride,
                            double part, T* to) {
@@ -33,15 +33,14 @@ HWY_INLINE void CombineRow(D d, const SparseRows& rows, int row, const T* from, 
   for (int i = 0; i < count; ++i) hn::StoreU(sum[i], d, to + i * hn::Lanes(d));
 }
 
-/// row_of(row): where it goes.
-template <bool adds, class T, class RowOf>
-void CombineRows(const SparseRows& rows, const T* from, std::size_t stride, std::size_t size,
-                 double part, const RowOf& row_of, T* to) {
+template <bool adds, class T>
+void CombineAll(const SparseRows& rows, const T* from, std::size_t stride, std::size_t size,
+                double part, const int* rows_of_to, T* to) {
   const WholeVector<T> d;
   constexpr std::size_t kTogether = 8;
   const std::size_t most = kTogether * hn::Lanes(d);
   for (int row = 0; row < rows.rows(); ++row) {
-    T* const out = to + row_of(row) * size;
+    T* const out = to + static_cast<std::size_t>(adds ? rows_of_to[row] : row) * size;
     std::size_t at = 0;
     for (; at + most <= size; at += most)
       CombineRow<kTogether, adds>(d, rows, row, from + at, stride, part, out + at);
@@ -49,6 +48,14 @@ void CombineRows(const SparseRows& rows, const T* from, std::size_t stride, std:
       CombineRow<1, adds>(tag, rows, row, from + at + rest, stride, part, out + at + rest);
     });
   }
+}
+
+/// `rows_of_to`: where rows are added; null: they are set, one after another.
+template <class T>
+void CombineRows(const SparseRows& rows, const T* from, std::size_t stride, std::size_t size,
+                 double part, const int* rows_of_to, T* to) {
+  const auto combine = rows_of_to ? CombineAll<true, T> : CombineAll<false, T>;
+  combine(rows, from, stride, size, part, rows_of_to, to);
 }
 
 template <class T>
@@ -72,26 +79,12 @@ void AddStrain(const T* HWY_RESTRICT uniform, std::size_t lanes,
 }
 
 void CombineRowsDouble(const SparseRows& rows, const double* from, std::size_t stride,
-                       std::size_t size, double* to) {
-  CombineRows<false>(
-      rows, from, stride, size, 1, [](int row) { return static_cast<std::size_t>(row); }, to);
-}
-void AddCombinedRowsDouble(const SparseRows& rows, const double* from, std::size_t size,
-                           double part, const std::vector<int>& rows_of_to, double* to) {
-  CombineRows<true>(
-      rows, from, size, size, part,
-      [&](int row) { return static_cast<std::size_t>(rows_of_to[row]); }, to);
+                       std::size_t size, double part, const int* rows_of_to, double* to) {
+  CombineRows(rows, from, stride, size, part, rows_of_to, to);
 }
 void CombineRowsFloat(const SparseRows& rows, const float* from, std::size_t stride,
-                      std::size_t size, float* to) {
-  CombineRows<false>(
-      rows, from, stride, size, 1, [](int row) { return static_cast<std::size_t>(row); }, to);
-}
-void AddCombinedRowsFloat(const SparseRows& rows, const float* from, std::size_t size, double part,
-                          const std::vector<int>& rows_of_to, float* to) {
-  CombineRows<true>(
-      rows, from, size, size, part,
-      [&](int row) { return static_cast<std::size_t>(rows_of_to[row]); }, to);
+                      std::size_t size, double part, const int* rows_of_to, float* to) {
+  CombineRows(rows, from, stride, size, part, rows_of_to, to);
 }
 void AddStrainDouble(const double* uniform, std::size_t lanes,
                      const Eigen::Matrix<double, 3, 6>& tractions, const Vector6& pressure,
@@ -112,30 +105,28 @@ HWY_AFTER_NAMESPACE();
 namespace bem {
 
 HWY_EXPORT(CombineRowsDouble);
-HWY_EXPORT(AddCombinedRowsDouble);
 HWY_EXPORT(CombineRowsFloat);
-HWY_EXPORT(AddCombinedRowsFloat);
 HWY_EXPORT(AddStrainDouble);
 HWY_EXPORT(AddStrainFloat);
 
 void combine_rows(const SparseRows& rows, const double* from, std::size_t stride, std::size_t size,
                   double* to) {
-  HWY_DYNAMIC_DISPATCH(CombineRowsDouble)(rows, from, stride, size, to);
+  HWY_DYNAMIC_DISPATCH(CombineRowsDouble)(rows, from, stride, size, 1, nullptr, to);
 }
 
 void add_combined_rows(const SparseRows& rows, const double* from, std::size_t size, double part,
                        const std::vector<int>& rows_of_to, double* to) {
-  HWY_DYNAMIC_DISPATCH(AddCombinedRowsDouble)(rows, from, size, part, rows_of_to, to);
+  HWY_DYNAMIC_DISPATCH(CombineRowsDouble)(rows, from, size, size, part, rows_of_to.data(), to);
 }
 
 void combine_rows(const SparseRows& rows, const float* from, std::size_t stride, std::size_t size,
                   float* to) {
-  HWY_DYNAMIC_DISPATCH(CombineRowsFloat)(rows, from, stride, size, to);
+  HWY_DYNAMIC_DISPATCH(CombineRowsFloat)(rows, from, stride, size, 1, nullptr, to);
 }
 
 void add_combined_rows(const SparseRows& rows, const float* from, std::size_t size, double part,
                        const std::vector<int>& rows_of_to, float* to) {
-  HWY_DYNAMIC_DISPATCH(AddCombinedRowsFloat)(rows, from, size, part, rows_of_to, to);
+  HWY_DYNAMIC_DISPATCH(CombineRowsFloat)(rows, from, size, size, part, rows_of_to.data(), to);
 }
 
 void add_strain(const double* uniform, std::size_t lanes,

@@ -18,9 +18,9 @@ static_assert(StaticSums::kAdjoint == 0 && StaticSums::kScalar == kFirstForm + 1
 /// adds J of uniform strain to `strain`.
 template <class T>
 void MidpointPatches<T>::evaluate(const PairIntegrals& pairs, const Midpoint& x,
-                                  const SurfacePatch& y, const LaneTable<T>& table, bool with_h,
-                                  T* strain) {
-  const std::size_t lanes = by_point_.lanes, entry = 9 * lanes;
+                                  const SurfacePatch& y, const LaneTable<T>& table,
+                                  std::size_t lanes, bool with_h, T* strain) {
+  const std::size_t entry = 9 * lanes;
   const StaticTraction traction(pairs.material().kappa());
   alignas(64) double values[StaticSums::kCount][StaticBatch::kCapacity];
   for_each_batch(x, y.midpoints, batch_, [&](std::size_t first) {
@@ -45,7 +45,7 @@ void MidpointPatches<T>::evaluate(const PairIntegrals& pairs, const Midpoint& x,
 /// them.
 template <class T>
 void MidpointPatches<T>::combine_curls(const SurfacePatch& y, std::size_t x) {
-  const std::size_t nodes = by_point_.nodes;
+  const std::size_t nodes = y.nodes.size();
   for (int axis = 0; axis < 3; ++axis) {
     by_axis_[axis].resize(nodes * kFormVector);
     combine_rows(y.curls_at[axis], static_.data() + kFirstForm, kStaticKernels, kFormVector,
@@ -66,7 +66,7 @@ template <class T>
 void MidpointPatches<T>::add_static_h(const Material& material, const PatchRows& wanted,
                                       double h_part, const std::vector<int>& places,
                                       BlockSums<T>& to) {
-  const std::size_t nodes = by_point_.nodes, rows = wanted.rows.size();
+  const std::size_t nodes = to.nodes, rows = wanted.rows.size();
   const double kappa = material.kappa(), scale = h_part * material.shear_modulus / (4 * kPi);
   for (int axis = 0; axis < 3; ++axis) {
     combined_[axis].resize(rows * nodes * kForms);
@@ -100,32 +100,35 @@ void MidpointPatches<T>::add(const PairIntegrals& pairs, const SurfacePatch& x,
                              const LaneTable<T>& table, double h_part,
                              const std::vector<int>& places, BlockSums<T>& to) {
   const bool with_h = h_part != 0;
-  const std::size_t points = y.midpoints.size(), entry = 9 * to.lanes;
+  const std::size_t from = x.midpoints.size(), points = y.midpoints.size();
+  const std::size_t entry = 9 * to.lanes, nodes = to.nodes, hats = to.hats;
   constexpr std::size_t kStatic = BlockSums<T>::kStaticEntry;
-  by_point_.start(x.midpoints.size(), y, to.lanes);
-  const std::size_t nodes = by_point_.nodes, hats = by_point_.hats;
-  inertia_.resize(points * entry);
-  adjoint_.resize(points * entry);
   uniform_.resize(MidpointSums<T>::kUniform * to.lanes);
+  adjoint_.resize(points * entry);
   static_.resize(points * kStaticKernels);
-  for (AlignedVector<double>& of_axis : curls_) of_axis.resize(x.midpoints.size() * nodes * kForms);
-  for (std::size_t i = 0; i < x.midpoints.size(); ++i) {
-    evaluate(pairs, x.midpoints[i], y, table, with_h, &by_point_.strain[i * 2 * entry]);
-    combine_rows(y.tractions_at, adjoint_.data(), entry, &by_point_.adjoint[i * hats * entry]);
+  adjoint_of_x_.resize(from * hats * entry);
+  static_g_of_x_.resize(from * hats * kStatic);
+  set_zero(strain_of_x_, from * 2 * entry);
+  if (with_h) {
+    inertia_.resize(points * entry);
+    inertia_of_x_.resize(from * nodes * entry);
+    for (AlignedVector<double>& of_axis : curls_) of_axis.resize(from * nodes * kForms);
+  }
+  for (std::size_t i = 0; i < from; ++i) {
+    evaluate(pairs, x.midpoints[i], y, table, to.lanes, with_h, &strain_of_x_[i * 2 * entry]);
+    combine_rows(y.tractions_at, adjoint_.data(), entry, &adjoint_of_x_[i * hats * entry]);
     combine_rows(y.tractions_at, static_.data(), kStaticKernels, kStatic,
-                 &by_point_.static_g[i * hats * kStatic]);
+                 &static_g_of_x_[i * hats * kStatic]);
     if (!with_h) continue;
-    combine_rows(y.displacements_at, inertia_.data(), entry, &by_point_.inertia[i * nodes * entry]);
+    combine_rows(y.displacements_at, inertia_.data(), entry, &inertia_of_x_[i * nodes * entry]);
     combine_curls(y, i);
   }
   const SparseRows& rows = wanted.midpoints;
-  add_combined_rows(rows, by_point_.adjoint.data(), hats * entry, 1, places, to.adjoint.data());
-  add_combined_rows(rows, by_point_.strain.data(), 2 * entry, 1, places, to.strain.data());
-  add_combined_rows(rows, by_point_.static_g.data(), hats * kStatic, -1, places,
-                    to.static_g.data());
+  add_combined_rows(rows, adjoint_of_x_.data(), hats * entry, 1, places, to.adjoint.data());
+  add_combined_rows(rows, strain_of_x_.data(), 2 * entry, 1, places, to.strain.data());
+  add_combined_rows(rows, static_g_of_x_.data(), hats * kStatic, -1, places, to.static_g.data());
   if (!with_h) return;
-  add_combined_rows(rows, by_point_.inertia.data(), nodes * entry, h_part, places,
-                    to.inertia.data());
+  add_combined_rows(rows, inertia_of_x_.data(), nodes * entry, h_part, places, to.inertia.data());
   add_static_h(pairs.material(), wanted, h_part, places, to);
 }
 

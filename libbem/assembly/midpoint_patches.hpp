@@ -3,6 +3,7 @@
 #include "assembly/block_sums.hpp"
 #include "assembly/midpoint_sums.hpp"
 #include "assembly/pair_integrals.hpp"
+#include "assembly/patch_rows.hpp"
 #include "assembly/static_sums.hpp"
 
 namespace bem {
@@ -24,7 +25,7 @@ class MidpointPatches {
   static constexpr std::size_t kForms = 12;
 
   void evaluate(const PairIntegrals& pairs, const Midpoint& x, const SurfacePatch& y,
-                const LaneTable<T>& table, bool with_h, T* strain);
+                const LaneTable<T>& table, std::size_t lanes, bool with_h, T* strain);
   void combine_curls(const SurfacePatch& y, std::size_t x);
   void add_static_h(const Material& material, const PatchRows& wanted, double h_part,
                     const std::vector<int>& places, BlockSums<T>& to);
@@ -32,9 +33,10 @@ class MidpointPatches {
   /// Between one point x and those of y.
   AlignedVector<T> inertia_, adjoint_, uniform_;
   AlignedVector<double> static_, by_axis_[3];
-  /// By points of x, and nodes or hats of y.
-  BlockSums<T> by_point_;
-  AlignedVector<double> curls_[3], combined_[3];  ///< [x][node of y][kForms], by axis of x
+  /// By points of x: [x][node or hat of y], as in BlockSums.
+  AlignedVector<T> inertia_of_x_, adjoint_of_x_, strain_of_x_;
+  AlignedVector<double> static_g_of_x_;
+  AlignedVector<double> curls_[3], combined_[3];  ///< [x or row][node of y][kForms], by axis of x
   MidpointBatch batch_;
   StaticBatch static_batch_;
   PairScratch<T> scratch_;

@@ -1,4 +1,4 @@
-#include "assembly/block_sums.hpp"
+#include "assembly/patch_rows.hpp"
 
 namespace bem {
 
