@@ -26,12 +26,6 @@ std::vector<Vec3> placed_nodes(const BodySpec& body, const BodyGeometry& g) {
   return out;
 }
 
-Vec3 place_of(const Attachment& at, const std::vector<Vec3>& nodes) {
-  Vec3 sum = Vec3::Zero();
-  for (int i = 0; i < at.count; ++i) sum += at.weights[i] * nodes[at.nodes[i]];
-  return sum;
-}
-
 Attachment node_attachment(int body, int node) {
   return {body, 1, {node, -1, -1}, {1, 0, 0}};
 }
@@ -177,7 +171,7 @@ class Planner {
   void add_point(const JointSpec& spec) {
     Joint joint;
     joint.a = nearest_on_surface(spec.a);
-    const Vec3 a = place_of(joint.a, placed_[joint.a.body]);
+    const Vec3 a = joint.a.place(placed_[joint.a.body]);
     if (spec.b) {
       joint.b = nearest_on_surface(*spec.b);
       if ((spec.a.point - spec.b->point).norm() > spec.tolerance)
@@ -187,7 +181,7 @@ class Planner {
                                           to_text(spec.tolerance) +
                                           " m; give both ends the same point");
       const Mat3 r = scene_.bodies[joint.a.body].rotation.matrix();
-      joint.offset = r.transpose() * (place_of(joint.b, placed_[joint.b.body]) - a);
+      joint.offset = r.transpose() * (joint.b.place(placed_[joint.b.body]) - a);
     } else {
       joint.place = a;
     }

@@ -36,6 +36,12 @@ std::pair<Mat3, Vec3> best_motion(const std::vector<const Joint*>& joints, doubl
 
 }  // namespace
 
+Vec3 Attachment::place(const std::vector<Vec3>& of_nodes) const {
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < count; ++i) sum += weights[i] * of_nodes[nodes[i]];
+  return sum;
+}
+
 bool Joint::is_active(double t) const {
   // a step that ends at the release time is still held
   return !handle || !handle->release_time ||

@@ -27,6 +27,9 @@ struct Attachment {
   int count = 0;
   std::array<int, 3> nodes = {-1, -1, -1};
   std::array<double, 3> weights = {0, 0, 0};
+
+  /// Where it is if the body's nodes are here [m].
+  Vec3 place(const std::vector<Vec3>& of_nodes) const;
 };
 
 /// Two points that stay together at every stage, or a point that goes where the scene says.

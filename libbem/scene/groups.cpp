@@ -33,16 +33,13 @@ Error Groups::unknown(const Selection& selection, const std::string& hint) const
   std::set<std::string> names;
   for (const auto& [name, group] : of_scene_) names.insert(name);
   for (const auto& [name, ranges] : of_mesh_) names.insert(name);
-  std::string known;
-  std::size_t count = 0;
-  for (const std::string& name : names)
-    if (++count <= kMostNames) known += (known.empty() ? "" : ", ") + in_quotes(name);
-  const std::string nearest = nearest_name(selection.group, {names.begin(), names.end()});
+  const std::vector<std::string> known(names.begin(), names.end());
+  const std::string nearest = nearest_name(selection.group, known);
   return error_at(selection.location,
                   "there is no group " + in_quotes(selection.group) +
                       (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?") +
-                      " (groups here: " + (known.empty() ? "none" : known) +
-                      (count > kMostNames ? ", ..." : "") + hint + ")");
+                      " (groups here: " +
+                      (known.empty() ? "none" : quoted_list(known, kMostNames)) + hint + ")");
 }
 
 }  // namespace bem

@@ -45,6 +45,13 @@ std::string in_quotes(const std::string& text) {
   return '"' + printable(text, 60) + '"';
 }
 
+std::string quoted_list(const std::vector<std::string>& names, std::size_t most) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    out += (i == 0 ? "" : ", ") + in_quotes(names[i]);
+  return out + (names.size() > most ? ", ..." : "");
+}
+
 std::string pointer_token(const std::string& key) {
   std::string out = "/";
   for (char c : key) {

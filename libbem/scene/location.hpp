@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace bem {
 
@@ -41,6 +42,9 @@ std::string printable(const std::string& text, std::size_t max_bytes = 200);
 
 /// printable(text) in double quotes, shortened to what a message can hold.
 std::string in_quotes(const std::string& text);
+
+/// `"a", "b"`, and ", ..." if there are more than `most` names.
+std::string quoted_list(const std::vector<std::string>& names, std::size_t most);
 
 /// Calls `read` and adds the place to the message of an Error that it throws, unless the error has
 /// a place in the same file, which is nearer to what is wrong.

@@ -22,10 +22,7 @@ std::string bodies_text(const std::vector<std::string>& names) {
 
 std::string list_of(const std::vector<std::string>& names) {
   constexpr std::size_t kListed = 10;
-  std::string out;
-  for (std::size_t i = 0; i < std::min(names.size(), kListed); ++i)
-    out += (i == 0 ? "" : ", ") + in_quotes(names[i]);
-  return out + (names.size() > kListed ? ", ..." : "");
+  return quoted_list(names, kListed);
 }
 
 }  // namespace

@@ -9,16 +9,6 @@
 #include <map>
 
 namespace bem {
-namespace {
-
-Vec3 place_now(const Attachment& at, const std::vector<Vec3>& nodes) {
-  Vec3 sum = Vec3::Zero();
-  for (int i = 0; i < at.count; ++i) sum += at.weights[i] * nodes[at.nodes[i]];
-  return sum;
-}
-
-}  // namespace
-
 void hold_in_place(JointPlan& plan, std::vector<Body>& bodies, std::size_t body,
                    ConstraintSolver& solver) {
   constexpr double kRounding = 1e-6;  // of the body's extent
@@ -29,9 +19,9 @@ void hold_in_place(JointPlan& plan, std::vector<Body>& bodies, std::size_t body,
   const std::vector<Vec3> nodes = BodyOutput(bodies[body]).node_positions();
   double farthest = 0;
   for (const Joint* joint : held)
-    farthest = std::max(farthest, (place_now(joint->a, nodes) - joint->target(0)).norm());
+    farthest = std::max(farthest, (joint->a.place(nodes) - joint->target(0)).norm());
   if (farthest <= kRounding * bodies[body].model().geometry.extent) return;
-  for (Joint* joint : held) joint->place = place_now(joint->a, nodes);
+  for (Joint* joint : held) joint->place = joint->a.place(nodes);
   BodyStart(bodies[body]).hold_here();
   solver.hold_here(body);
 }
@@ -42,7 +32,7 @@ void check_joined(const JointPlan& plan, const std::vector<Body>& bodies) {
   const auto place = [&](const Attachment& at) {
     std::vector<Vec3>& of_body = nodes[at.body];
     if (of_body.empty()) of_body = BodyOutput(bodies[at.body]).node_positions();
-    return place_now(at, of_body);
+    return at.place(of_body);
   };
   for (const Joint& joint : plan.joints) {
     if (joint.to_world()) continue;
