@@ -51,3 +51,27 @@ TEST_CASE("close slivers are cut along, not across") {
     points = found.points;
   }
 }
+
+TEST_CASE("triangles with midpoints that are left out are close, and get all that is left out") {
+  const auto is_close = [](const PairQuadrature& q) {
+    return q.is_close(0, 1, KernelPart::static_part) && q.is_close(0, 1, KernelPart::dynamic_part);
+  };
+  int left_out = 0;
+  for (double height : {1.0, 0.3, 0.02})
+    for (double distance : {0.01, 0.1, 0.2, 0.24, 0.3, 1.0, 5.0})
+      for (double tolerance : {1e-8, 1e-6, 1e-4, 1e-2}) {
+        INFO("height " << height << ", distance " << distance << ", tolerance " << tolerance);
+        const TriangleMesh mesh = two_slivers(height, distance);
+        const PairQuadrature quadrature(mesh, tolerance, 0);
+        double weights = 0, rest = 0;
+        quadrature.for_each_midpoint(0, 1, [&](const PairPoint& p) { weights += p.weight; });
+        quadrature.for_each_point(0, 1, KernelPart::static_part, PairShare::beyond_midpoints,
+                                  [&](const PairPoint& p) { rest += p.weight; });
+        const double areas = quadrature.area(0) * quadrature.area(1);
+        CHECK(rest == Approx((1 - weights) * areas).margin(1e-12 * areas));
+        if (weights > 1 - 1e-9) continue;
+        ++left_out;
+        CHECK(is_close(quadrature));
+      }
+  CHECK(left_out > 20);
+}
