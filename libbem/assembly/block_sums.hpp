@@ -29,6 +29,29 @@ struct BlockSums {
     set_zero(static_h, rows * nodes * kStaticEntry);
     set_zero(static_g, rows * hats * kStaticEntry);
   }
+  /// Adds the rows of another patch to rows places[k]; its nodes and hats are these ones here.
+  void add(const BlockSums& part, const std::vector<int>& places, const std::vector<int>& of_nodes,
+           const std::vector<int>& of_hats) {
+    scatter(part.inertia, places, of_nodes, 9 * lanes, nodes, inertia);
+    scatter(part.static_h, places, of_nodes, kStaticEntry, nodes, static_h);
+    scatter(part.adjoint, places, of_hats, 9 * lanes, hats, adjoint);
+    scatter(part.static_g, places, of_hats, kStaticEntry, hats, static_g);
+    scatter(part.strain, places, {0}, 18 * lanes, 1, strain);
+  }
+
+ private:
+  /// to[places[k]][columns[i]] += from[k][i], `size` numbers each; `to` has `width` columns.
+  template <class S>
+  static void scatter(const AlignedVector<S>& from, const std::vector<int>& places,
+                      const std::vector<int>& columns, std::size_t size, std::size_t width,
+                      AlignedVector<S>& to) {
+    const S* a = from.data();
+    for (int row : places)
+      for (int column : columns) {
+        S* b = &to[(row * width + column) * size];
+        for (std::size_t i = 0; i < size; ++i) b[i] += *a++;
+      }
+  }
 };
 
 }  // namespace bem

@@ -156,7 +156,7 @@ void FarField::DynamicFactors<T>::add_strain(FarBlock& block) {
     if (!g_.has_row_at(static_cast<int>(x))) continue;
     std::fill(rows.begin(), rows.end(), T(0));
     for (const SurfacePatch* patch : task_.strained) {
-      for_each_batch(point(static_cast<int>(x)), patch->midpoints, batch_, [&](std::size_t) {
+      for_each_batch(point(static_cast<int>(x)).place, patch->midpoints, batch_, [&](std::size_t) {
         evaluate_midpoints(lanes_, field_.pairs_.scales(), point(static_cast<int>(x)).normal,
                            batch_, scratch_, {stride_, nullptr, adjoint_.data(), uniform_.data()});
         add_strain_of_midpoints(field_.pairs_, uniform_.data(), stride_, rows.data());

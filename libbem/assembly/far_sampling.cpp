@@ -55,7 +55,7 @@ void FarField::DynamicFactors<T>::evaluate(int x, const std::vector<int>& y, boo
   constexpr std::size_t kTogether = MidpointBatch::kCapacity;
   for (std::size_t begin = 0; begin < y.size(); begin += kTogether) {
     const std::size_t size = std::min(y.size() - begin, kTogether);
-    batch_.set(at, static_cast<int>(size), [&](int q) -> const Midpoint& {
+    batch_.set(at.place, static_cast<int>(size), [&](int q) -> const Midpoint& {
       return points[y[begin + static_cast<std::size_t>(q)]];
     });
     static_batch_.size = 0;

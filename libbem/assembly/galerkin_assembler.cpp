@@ -155,7 +155,7 @@ void GalerkinAssembler::assemble_rows(const LaneTable<T>& lanes, bool mirrored,
         check_interruption();
         const bool above = y.nodes.back() >= first + wanted[k].rows.front();
         const double h_part = mirrored ? part_of_pair(whole[k], at) : !symmetric || above ? 1 : 0;
-        blocks[i].add(pairs_, patches[k], wanted[k], y, parts_[at], lanes, h_part);
+        blocks[i].add({pairs_, patches[k], wanted[k], y, h_part}, parts_[at], lanes);
       }
     });
     parallel_for(count, [&](std::size_t row) {

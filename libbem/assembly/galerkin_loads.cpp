@@ -34,8 +34,8 @@ void GalerkinAssembler::sum_loads(int tx, const std::vector<PanelLoad>& loads,
     for (int b = 0; b < 3; ++b)
       corners.middleRows<3>(3 * b) = (load.corner.value_or(b) == b ? 1.0 : 0.0) * load.traction;
     PairTractions adjoint = PairTractions::Zero();
-    add_static_pair(pairs_.quadrature(), m.shear_modulus, m.kappa(), tx, load.triangle,
-                    PairShare::all, nullptr, adjoint);
+    add_static_pair(pairs_.quadrature(), m.shear_modulus, m.kappa(), tx, load.triangle, nullptr,
+                    adjoint);
     part.rest -= adjoint * corners;
     if (load.triangle == tx) part.rest += 0.5 * mass_matrix(pairs_.quadrature().area(tx)) * corners;
     std::fill(adjoint_sums.begin(), adjoint_sums.end(), T(0));
@@ -47,7 +47,7 @@ void GalerkinAssembler::sum_loads(int tx, const std::vector<PanelLoad>& loads,
         sums.adjoint[b][a] = &adjoint_sums[(kShapes * b + a) * 9 * stride];
       sums.uniform[a] = &uniform_sums[a * PairSums<T>::kUniform * stride];
     }
-    pairs_.add(tx, load.triangle, PairShare::all, lanes, batch, *scratch, sums);
+    pairs_.add(tx, load.triangle, lanes, batch, *scratch, sums);
     for (int a = 0; a < kShapes; ++a) {
       const T* kernel = load.corner ? sums.adjoint[*load.corner][a] : sums.uniform[a];
       for (Eigen::Index c = 0; c < cases; ++c)

@@ -118,22 +118,8 @@ void add_sums(const PairQuadrature::Part& part, const StaticSums& of_part, Stati
         (x * Eigen::Map<const Products>(of_part.values[e])).lazyProduct(y.transpose());
 }
 
-/// Takes away what the rule of midpoints gives.
-void subtract_midpoints(const PairQuadrature& quadrature, const StaticTraction& traction, int tx,
-                        int ty, StaticSums& sums) {
-  StaticBatch batch;
-  alignas(64) double shapes[StaticBatch::kCapacity][StaticBatch::kShapes];
-  batch.shapes = shapes;
-  quadrature.for_each_midpoint(tx, ty, [&](const PairPoint& p) {
-    set_shapes(p.x, p.y, -p.weight, shapes[batch.size]);
-    batch.add(quadrature.position(ty, p.y) - quadrature.position(tx, p.x));
-  });
-  if (batch.size > 0) accumulate_static(quadrature.normal(tx), traction, batch, sums);
-}
-
 /// The static sums over two triangles.
-StaticSums static_sums(const PairQuadrature& quadrature, double kappa, int tx, int ty,
-                       PairShare share) {
+StaticSums static_sums(const PairQuadrature& quadrature, double kappa, int tx, int ty) {
   const StaticTraction traction(kappa);
   const Vec3& normal = quadrature.normal(tx);
   StaticSums sums;
@@ -152,7 +138,6 @@ StaticSums static_sums(const PairQuadrature& quadrature, double kappa, int tx, i
     add(part, of_part);
     add_sums(part, of_part, sums);
   });
-  if (share == PairShare::beyond_midpoints) subtract_midpoints(quadrature, traction, tx, ty, sums);
   const double areas = quadrature.area(tx) * quadrature.area(ty);
   for (auto& row : sums.values)
     for (double& value : row) value *= areas;
@@ -171,8 +156,8 @@ std::array<Vec3, 3> linear_curls(const TriangleMesh& mesh, int triangle, double 
 }  // namespace
 
 void add_static_pair(const PairQuadrature& quadrature, double shear_modulus, double kappa, int tx,
-                     int ty, PairShare share, PairMatrix* h, PairTractions& adjoint) {
-  const StaticSums sums = static_sums(quadrature, kappa, tx, ty, share);
+                     int ty, PairMatrix* h, PairTractions& adjoint) {
+  const StaticSums sums = static_sums(quadrature, kappa, tx, ty);
   for (int a = 0; a < kShapes; ++a)
     for (int b = 0; b < 3; ++b)
       for (int e = 0; e < 9; ++e)

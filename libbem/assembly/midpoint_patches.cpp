@@ -14,31 +14,23 @@ static_assert(StaticSums::kAdjoint == 0 && StaticSums::kScalar == kFirstForm + 1
 
 }  // namespace
 
-/// The kernels between x and the points of y, static_[y][kernel] with K'(0) times the area of y;
-/// adds J of uniform strain to `strain`.
+/// The static kernels between x and the points of y: static_[y][kernel], K'(0) times the area of y.
 template <class T>
-void MidpointPatches<T>::evaluate(const PairIntegrals& pairs, const Midpoint& x,
-                                  const SurfacePatch& y, const LaneTable<T>& table,
-                                  std::size_t lanes, bool with_h, T* strain) {
-  const std::size_t entry = 9 * lanes;
-  const StaticTraction traction(pairs.material().kappa());
+void MidpointPatches<T>::evaluate(const PatchPair& pair, const Midpoint& x) {
+  const std::vector<Midpoint>& y = pair.y.midpoints;
+  const StaticTraction traction(pair.integrals.material().kappa());
   alignas(64) double values[StaticSums::kCount][StaticBatch::kCapacity];
-  for_each_batch(x, y.midpoints, batch_, [&](std::size_t first) {
-    evaluate_midpoints(table, pairs.scales(), x.normal, batch_, scratch_,
-                       {lanes, with_h ? &inertia_[first * entry] : nullptr,
-                        &adjoint_[first * entry], uniform_.data()});
-    add_strain_of_midpoints(pairs, uniform_.data(), lanes, strain);
+  static_.resize(y.size() * kStaticKernels);
+  for (std::size_t first = 0; first < y.size(); first += StaticBatch::kCapacity) {
+    const std::size_t end = std::min(y.size(), first + StaticBatch::kCapacity);
     static_batch_.size = 0;
-    for (int q = 0; q < batch_.size; ++q)
-      static_batch_.add({batch_.r[0][q], batch_.r[1][q], batch_.r[2][q]});
+    for (std::size_t q = first; q < end; ++q) static_batch_.add(y[q].place - x.place);
     evaluate_static(x.normal, traction, static_batch_, values);
-    for (int q = 0; q < batch_.size; ++q) {
-      double* to = &static_[(first + static_cast<std::size_t>(q)) * kStaticKernels];
-      const double area = batch_.area[q], there = area > 0 ? 1 : 0;
+    for (std::size_t q = first; q < end; ++q)
       for (std::size_t k = 0; k < kStaticKernels; ++k)
-        to[k] = (k <= kFirstForm ? area : there) * values[k][q];
-    }
-  });
+        static_[q * kStaticKernels + k] =
+            (k < StaticSums::kScalar ? y[q].area : 1) * values[k][q - first];
+  }
 }
 
 /// The static kernels of D(0) between point x and the nodes of y, arranged as add_static_h() needs
@@ -63,14 +55,14 @@ void MidpointPatches<T>::combine_curls(const SurfacePatch& y, std::size_t x) {
 
 /// D(0) is bilinear in surface curls (static_hypersingular_kernel()).
 template <class T>
-void MidpointPatches<T>::add_static_h(const Material& material, const PatchRows& wanted,
-                                      double h_part, const std::vector<int>& places,
+void MidpointPatches<T>::add_static_h(const PatchPair& pair, const std::vector<int>& places,
                                       BlockSums<T>& to) {
-  const std::size_t nodes = to.nodes, rows = wanted.rows.size();
-  const double kappa = material.kappa(), scale = h_part * material.shear_modulus / (4 * kPi);
+  const Material& material = pair.integrals.material();
+  const std::size_t nodes = to.nodes, rows = places.size();
+  const double kappa = material.kappa(), scale = pair.h_part * material.shear_modulus / (4 * kPi);
   for (int axis = 0; axis < 3; ++axis) {
     combined_[axis].resize(rows * nodes * kForms);
-    combine_rows(wanted.curls_at[axis], curls_[axis].data(), nodes * kForms,
+    combine_rows(pair.rows.curls_at[axis], curls_[axis].data(), nodes * kForms,
                  combined_[axis].data());
   }
   constexpr int kTensorEntry[9] = {1, 2, 3, 2, 4, 5, 3, 5, 6};
@@ -95,41 +87,57 @@ void MidpointPatches<T>::add_static_h(const Material& material, const PatchRows&
 }
 
 template <class T>
-void MidpointPatches<T>::add(const PairIntegrals& pairs, const SurfacePatch& x,
-                             const PatchRows& wanted, const SurfacePatch& y,
-                             const LaneTable<T>& table, double h_part,
-                             const std::vector<int>& places, BlockSums<T>& to) {
-  const bool with_h = h_part != 0;
-  const std::size_t from = x.midpoints.size(), points = y.midpoints.size();
+void MidpointPatches<T>::add_dynamic(const PatchPair& pair, const LaneTable<T>& table,
+                                     const std::vector<int>& places, BlockSums<T>& to) {
+  const SurfacePatch& y = pair.y;
+  const std::vector<Midpoint>& x = pair.x.midpoints;
   const std::size_t entry = 9 * to.lanes, nodes = to.nodes, hats = to.hats;
-  constexpr std::size_t kStatic = BlockSums<T>::kStaticEntry;
   uniform_.resize(MidpointSums<T>::kUniform * to.lanes);
-  adjoint_.resize(points * entry);
-  static_.resize(points * kStaticKernels);
-  adjoint_of_x_.resize(from * hats * entry);
-  static_g_of_x_.resize(from * hats * kStatic);
-  set_zero(strain_of_x_, from * 2 * entry);
-  if (with_h) {
-    inertia_.resize(points * entry);
-    inertia_of_x_.resize(from * nodes * entry);
-    for (AlignedVector<double>& of_axis : curls_) of_axis.resize(from * nodes * kForms);
+  adjoint_.resize(y.midpoints.size() * entry);
+  adjoint_of_x_.resize(x.size() * hats * entry);
+  set_zero(strain_of_x_, x.size() * 2 * entry);
+  if (pair.with_h()) {
+    inertia_.resize(y.midpoints.size() * entry);
+    inertia_of_x_.resize(x.size() * nodes * entry);
   }
-  for (std::size_t i = 0; i < from; ++i) {
-    evaluate(pairs, x.midpoints[i], y, table, to.lanes, with_h, &strain_of_x_[i * 2 * entry]);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for_each_batch(x[i].place, y.midpoints, batch_, [&](std::size_t first) {
+      evaluate_midpoints(table, pair.integrals.scales(), x[i].normal, batch_, scratch_,
+                         {to.lanes, pair.with_h() ? &inertia_[first * entry] : nullptr,
+                          &adjoint_[first * entry], uniform_.data()});
+      add_strain_of_midpoints(pair.integrals, uniform_.data(), to.lanes,
+                              &strain_of_x_[i * 2 * entry]);
+    });
     combine_rows(y.tractions_at, adjoint_.data(), entry, &adjoint_of_x_[i * hats * entry]);
-    combine_rows(y.tractions_at, static_.data(), kStaticKernels, kStatic,
-                 &static_g_of_x_[i * hats * kStatic]);
-    if (!with_h) continue;
-    combine_rows(y.displacements_at, inertia_.data(), entry, &inertia_of_x_[i * nodes * entry]);
-    combine_curls(y, i);
+    if (pair.with_h())
+      combine_rows(y.displacements_at, inertia_.data(), entry, &inertia_of_x_[i * nodes * entry]);
   }
-  const SparseRows& rows = wanted.midpoints;
+  const SparseRows& rows = pair.rows.midpoints;
   add_combined_rows(rows, adjoint_of_x_.data(), hats * entry, 1, places, to.adjoint.data());
   add_combined_rows(rows, strain_of_x_.data(), 2 * entry, 1, places, to.strain.data());
-  add_combined_rows(rows, static_g_of_x_.data(), hats * kStatic, -1, places, to.static_g.data());
-  if (!with_h) return;
-  add_combined_rows(rows, inertia_of_x_.data(), nodes * entry, h_part, places, to.inertia.data());
-  add_static_h(pairs.material(), wanted, h_part, places, to);
+  if (pair.with_h())
+    add_combined_rows(rows, inertia_of_x_.data(), nodes * entry, pair.h_part, places,
+                      to.inertia.data());
+}
+
+template <class T>
+void MidpointPatches<T>::add_static(const PatchPair& pair, const std::vector<int>& places,
+                                    BlockSums<T>& to) {
+  constexpr std::size_t kStatic = BlockSums<T>::kStaticEntry;
+  const std::vector<Midpoint>& x = pair.x.midpoints;
+  const std::size_t nodes = to.nodes, hats = to.hats;
+  static_g_of_x_.resize(x.size() * hats * kStatic);
+  if (pair.with_h())
+    for (AlignedVector<double>& of_axis : curls_) of_axis.resize(x.size() * nodes * kForms);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    evaluate(pair, x[i]);
+    combine_rows(pair.y.tractions_at, static_.data(), kStaticKernels, kStatic,
+                 &static_g_of_x_[i * hats * kStatic]);
+    if (pair.with_h()) combine_curls(pair.y, i);
+  }
+  add_combined_rows(pair.rows.midpoints, static_g_of_x_.data(), hats * kStatic, -1, places,
+                    to.static_g.data());
+  if (pair.with_h()) add_static_h(pair, places, to);
 }
 
 template class MidpointPatches<float>;

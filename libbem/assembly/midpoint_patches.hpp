@@ -2,33 +2,29 @@
 
 #include "assembly/block_sums.hpp"
 #include "assembly/midpoint_sums.hpp"
-#include "assembly/pair_integrals.hpp"
-#include "assembly/patch_rows.hpp"
+#include "assembly/patch_pair.hpp"
 #include "assembly/static_sums.hpp"
 
 namespace bem {
 
-/// Integrates two patches by the midpoints of both, those that are left out excepted
-/// (midpoint.hpp).
+/// Integrates two patches that are far from each other by the midpoints of both.
 template <class T>
 class MidpointPatches {
  public:
-  /// Adds what x has with y to rows places[k] of `to`, for the wanted rows k: to G all of it, to H
-  /// `h_part` of it, which may be zero.
-  void add(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
-           const SurfacePatch& y, const LaneTable<T>& table, double h_part,
-           const std::vector<int>& places, BlockSums<T>& to);
+  /// Add what the patches have in common to rows places[k] of `to`, for the wanted rows k: dynamic
+  /// kernels, and static ones.
+  void add_dynamic(const PatchPair& pair, const LaneTable<T>& table, const std::vector<int>& places,
+                   BlockSums<T>& to);
+  void add_static(const PatchPair& pair, const std::vector<int>& places, BlockSums<T>& to);
 
  private:
   /// The surface curls of both ends meet in sums over the axes of both: by the axis of x, 1/r and
   /// h h^T/r with the same axis of y, then 1/r with the two others.
   static constexpr std::size_t kForms = 12;
 
-  void evaluate(const PairIntegrals& pairs, const Midpoint& x, const SurfacePatch& y,
-                const LaneTable<T>& table, std::size_t lanes, bool with_h, T* strain);
+  void evaluate(const PatchPair& pair, const Midpoint& x);
   void combine_curls(const SurfacePatch& y, std::size_t x);
-  void add_static_h(const Material& material, const PatchRows& wanted, double h_part,
-                    const std::vector<int>& places, BlockSums<T>& to);
+  void add_static_h(const PatchPair& pair, const std::vector<int>& places, BlockSums<T>& to);
 
   /// Between one point x and those of y.
   AlignedVector<T> inertia_, adjoint_, uniform_;

@@ -83,8 +83,7 @@ void EvaluateMidpoints(const LaneTable<T>& table, const PairScales& scales, cons
   for (int q = 0; q < batch.size; ++q) {
     scratch.moving[0][q] = static_cast<T>(batch.area[q]);
     for (int k = 0; k < 3; ++k)
-      scratch.moving[1 + k][q] =
-          batch.area[q] > 0 ? static_cast<T>(batch.n[k][q] / batch.area[q]) : T(0);
+      scratch.moving[1 + k][q] = static_cast<T>(batch.n[k][q] / batch.area[q]);
   }
   ForLanes<T>(sums.lanes, [&](auto d, std::size_t lane) {
     if (sums.inertia)

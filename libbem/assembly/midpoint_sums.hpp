@@ -15,19 +15,17 @@ struct MidpointBatch {
   double n[3][kCapacity];  ///< normals at y times areas [m^2]
   double area[kCapacity];  ///< of y [m^2]
 
-  /// `count` points, midpoint(q) for each, as they are seen from x. Points that are left out
-  /// (midpoint.hpp) have no area.
+  /// `count` points, midpoint(q) for each, as they are seen from x.
   template <class At>
-  void set(const Midpoint& x, int count, const At& midpoint) {
+  void set(const Vec3& x, int count, const At& midpoint) {
     size = count;
     for (int q = 0; q < padded_size(); ++q) {
       const Midpoint& p = midpoint(q < size ? q : 0);
-      const bool out = leaves_out(x, p);
       for (int k = 0; k < 3; ++k) {
-        r[k][q] = out ? x.reach : p.place[k] - x.place[k];
-        n[k][q] = out ? 0 : p.normal[k];
+        r[k][q] = p.place[k] - x[k];
+        n[k][q] = p.normal[k];
       }
-      area[q] = out ? 0 : p.area;
+      area[q] = p.area;
     }
   }
   /// Entries up to here have to be filled with something.
@@ -38,7 +36,7 @@ struct MidpointBatch {
 
 /// f(first) for the points y from `first` on that the batch holds, batch by batch.
 template <class F>
-void for_each_batch(const Midpoint& x, const std::vector<Midpoint>& y, MidpointBatch& batch,
+void for_each_batch(const Vec3& x, const std::vector<Midpoint>& y, MidpointBatch& batch,
                     const F& f) {
   for (std::size_t first = 0; first < y.size(); first += MidpointBatch::kCapacity) {
     batch.set(x, static_cast<int>(std::min<std::size_t>(y.size() - first, batch.kCapacity)),

@@ -19,22 +19,22 @@ PairIntegrals::PairIntegrals(const TriangleMesh& mesh, const Discretisation& d)
                   std::min(kResolvedSymbol, largest_symbol(d.scheme)) * scales_.lam_per_distance) {}
 
 template <class T>
-void PairIntegrals::add(int tx, int ty, PairShare share, const LaneTable<T>& lanes,
-                        PairBatch& batch, PairScratch<T>& scratch, const PairSums<T>& sums) const {
+void PairIntegrals::add(int tx, int ty, const LaneTable<T>& lanes, PairBatch& batch,
+                        PairScratch<T>& scratch, const PairSums<T>& sums) const {
   const auto consume = [&](const PairBatch& b) {
     accumulate_pair(lanes, scales_, quadrature_.normal(tx), quadrature_.normal(ty), b, scratch,
                     sums);
   };
   FibreCollector fibres(batch, consume);
-  quadrature_.for_each_point(tx, ty, KernelPart::dynamic_part, share, [&](const PairPoint& p) {
+  quadrature_.for_each_point(tx, ty, KernelPart::dynamic_part, [&](const PairPoint& p) {
     fibres.add(quadrature_.position(ty, p.y) - quadrature_.position(tx, p.x), p.x, p.y, p.weight);
   });
   fibres.finish();
 }
 
-template void PairIntegrals::add(int, int, PairShare, const LaneTable<float>&, PairBatch&,
-                                 PairScratch<float>&, const PairSums<float>&) const;
-template void PairIntegrals::add(int, int, PairShare, const LaneTable<double>&, PairBatch&,
+template void PairIntegrals::add(int, int, const LaneTable<float>&, PairBatch&, PairScratch<float>&,
+                                 const PairSums<float>&) const;
+template void PairIntegrals::add(int, int, const LaneTable<double>&, PairBatch&,
                                  PairScratch<double>&, const PairSums<double>&) const;
 
 Eigen::Matrix<double, 3, 6> PairIntegrals::shear_of_strain(const Vec3& n) const {

@@ -18,8 +18,8 @@ class PairIntegrals {
 
   /// Adds those of triangles tx and ty. `batch` and `scratch` are working memory.
   template <class T>
-  void add(int tx, int ty, PairShare share, const LaneTable<T>& lanes, PairBatch& batch,
-           PairScratch<T>& scratch, const PairSums<T>& sums) const;
+  void add(int tx, int ty, const LaneTable<T>& lanes, PairBatch& batch, PairScratch<T>& scratch,
+           const PairSums<T>& sums) const;
 
   /// Tractions of uniform strain on a triangle with normal n, 3 x 6, are shear_of_strain(n), and
   /// pressure_of_strain() times what pressure_kernel() stands for, where lambda kappa is finite.

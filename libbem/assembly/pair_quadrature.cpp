@@ -60,9 +60,7 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
             triangle_area(mesh, triangle),
             cell.longest_edge(),
             0,
-            thickness[t],
-            {Midpoint(places[0], places[1]), Midpoint(places[1], places[2]),
-             Midpoint(places[2], places[0])}};
+            thickness[t]};
     for (const Vec3& x : places) p.radius = std::max(p.radius, (x - p.centre).norm());
     longest_edge_ = std::max(longest_edge_, p.longest_edge);
     panels_.push_back(p);
@@ -75,12 +73,6 @@ PairQuadrature::PairQuadrature(const TriangleMesh& mesh, double tolerance, doubl
 bool PairQuadrature::midpoints_suffice(double distance, double longest_edge,
                                        KernelPart part) const {
   return is_midpoint_rule(rule_at(distance, longest_edge, part, wave_number_));
-}
-
-bool PairQuadrature::is_close(int tx, int ty, KernelPart part) const {
-  if (adjacency(tx, ty) != Adjacency::none) return true;
-  const auto rules = unsplit_rules(tx, ty, part);
-  return !rules || !is_midpoint_rule((*rules)[0]) || !is_midpoint_rule((*rules)[1]);
 }
 
 /// Up to which waves are resolved between two triangles that are not far from each other [1/m].

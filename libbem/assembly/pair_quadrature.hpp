@@ -1,6 +1,5 @@
 #pragma once
 
-#include "assembly/midpoint.hpp"
 #include "assembly/triangle_cell.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "quadrature/rule_choice.hpp"
@@ -15,10 +14,6 @@ namespace bem {
 /// The static parts of the kernels, which are up to 1/r^2, or the dynamic ones, which are up to 1/r
 /// and carry the lags.
 enum class KernelPart { static_part, dynamic_part };
-
-/// What is integrated over a pair of triangles: all, or what the product of two rules of degree 2,
-/// whose points are midpoints of edges, leaves of it.
-enum class PairShare { all, beyond_midpoints };
 
 /// Distributes quadrature points over pairs of triangles of a mesh: Sauter and Schwab's where they
 /// touch, products of triangle rules elsewhere, of halves of triangles that are close. The points
@@ -71,7 +66,7 @@ class PairQuadrature {
   /// Calls f(point) for the points x on triangle `tx` and y on `ty`, by barycentric coordinates in
   /// the triangles' own numbering of corners; weights add up to the product of the areas [m^4].
   template <class F>
-  void for_each_point(int tx, int ty, KernelPart kernel, PairShare share, const F& f) const {
+  void for_each_point(int tx, int ty, KernelPart kernel, const F& f) const {
     const double areas = panels_[tx].area * panels_[ty].area;
     for_each_part(tx, ty, kernel, [&](const Part& part) {
       const double scale = areas * part.fraction();
@@ -83,29 +78,8 @@ class PairQuadrature {
         f(static_cast<const PairPoint&>(p));
       });
     });
-    if (share == PairShare::beyond_midpoints)
-      for_each_midpoint(tx, ty, [&](PairPoint p) {
-        p.weight *= -areas;
-        f(static_cast<const PairPoint&>(p));
-      });
   }
 
-  /// Calls f(point) for the midpoints of edges of both triangles that are not left out
-  /// (midpoint.hpp); weights add up to one if all are there.
-  template <class F>
-  void for_each_midpoint(int tx, int ty, const F& f) const {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        if (leaves_out(panels_[tx].midpoints[i], panels_[ty].midpoints[j])) continue;
-        PairPoint p{};
-        p.weight = 1.0 / 9;
-        p.x[i] = p.x[(i + 1) % 3] = p.y[j] = p.y[(j + 1) % 3] = 0.5;
-        f(p);
-      }
-  }
-
-  /// Whether a rule of degree 2 is not enough for both triangles.
-  bool is_close(int tx, int ty, KernelPart part) const;
   /// Whether a rule of degree 2 is enough for triangles with edges of at most `longest_edge` at
   /// such a distance [m].
   bool midpoints_suffice(double distance, double longest_edge, KernelPart part) const;
@@ -122,9 +96,8 @@ class PairQuadrature {
   struct Panel {
     Vec3 normal, centre;
     double area, longest_edge;
-    double radius;                      ///< of the corners about the centre
-    double thickness;                   ///< mesh/local_thickness.hpp
-    std::array<Midpoint, 3> midpoints;  ///< of the edges from corner k to k + 1
+    double radius;     ///< of the corners about the centre
+    double thickness;  ///< mesh/local_thickness.hpp
   };
   /// Two parts of triangles that are dealt with together.
   struct Pair {

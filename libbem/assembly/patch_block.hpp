@@ -1,9 +1,10 @@
 #pragma once
 
-#include "assembly/close_patches.hpp"
 #include "assembly/midpoint_patches.hpp"
+#include "assembly/shape_patches.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace bem {
 
@@ -27,16 +28,25 @@ class PatchBlock {
       if (reached[row] != 0) place_[row] = static_cast<int>(rows++);
     sums_.start(rows, y, lanes);
   }
-  /// Adds what the patch x has with y, which has these parts: to G all of it, to H `h_part` of it,
-  /// which may be zero.
-  void add(const PairIntegrals& pairs, const SurfacePatch& x, const PatchRows& wanted,
-           const SurfacePatch& y, const PatchParts& parts, const LaneTable<T>& table,
-           double h_part) {
+  /// Adds what a patch x has with y, which has these parts. Kernels that y is too close for go on
+  /// to its parts, where they are integrated by midpoints or by shape functions.
+  void add(const PatchPair& pair, const PatchParts& parts, const LaneTable<T>& table) {
     places_.clear();
-    for (int row : wanted.rows) places_.push_back(place_[row]);
-    midpoints_.add(pairs, x, wanted, y, table, h_part, places_, sums_);
-    for (const PatchParts::Part& part : parts.parts)
-      close_.add(pairs, x, wanted, part, table, h_part, places_, sums_);
+    for (int row : pair.rows.rows) places_.push_back(place_[row]);
+    const bool dynamic = pair.is_far(KernelPart::dynamic_part),
+               fixed = pair.is_far(KernelPart::static_part);
+    if (dynamic) midpoints_.add_dynamic(pair, table, places_, sums_);
+    if (fixed) midpoints_.add_static(pair, places_, sums_);
+    if (dynamic && fixed) return;
+    own_places_.resize(places_.size());
+    std::iota(own_places_.begin(), own_places_.end(), 0);
+    for (const PatchParts::Part& part : parts.parts) {
+      const PatchPair of_part = {pair.integrals, pair.x, pair.rows, part.patch, pair.h_part};
+      part_.start(places_.size(), part.patch, sums_.lanes);
+      if (!dynamic) add_dynamic(of_part, table);
+      if (!fixed) add_static(of_part);
+      sums_.add(part_, places_, part.nodes, part.hats);
+    }
   }
 
   /// Which row of the sums is of this row; -1: none.
@@ -44,11 +54,24 @@ class PatchBlock {
   const BlockSums<T>& sums() const { return sums_; }
 
  private:
-  std::vector<int> place_;   ///< by row
-  std::vector<int> places_;  ///< of the rows of one patch of x
-  BlockSums<T> sums_;
+  void add_dynamic(const PatchPair& pair, const LaneTable<T>& table) {
+    if (pair.is_far(KernelPart::dynamic_part))
+      midpoints_.add_dynamic(pair, table, own_places_, part_);
+    else
+      shapes_.add_dynamic(pair, table, own_places_, part_);
+  }
+  void add_static(const PatchPair& pair) {
+    if (pair.is_far(KernelPart::static_part))
+      midpoints_.add_static(pair, own_places_, part_);
+    else
+      shapes_.add_static(pair, own_places_, part_);
+  }
+
+  std::vector<int> place_;                ///< by row
+  std::vector<int> places_, own_places_;  ///< of the rows of one patch of x, in sums_ and in part_
+  BlockSums<T> sums_, part_;
   MidpointPatches<T> midpoints_;
-  ClosePatches<T> close_;
+  ShapePatches<T> shapes_;
 };
 
 }  // namespace bem

@@ -46,22 +46,21 @@ class Pairs {
 
   void add_static(int tx, int ty, PairMatrices& out) const {
     const StaticTraction rest(kappa_);
-    quadrature_.for_each_point(
-        tx, ty, KernelPart::static_part, PairShare::all, [&](const PairPoint& p) {
-          const SurfacePair g = geometry(tx, ty, p);
-          const auto shape = quadratic_shapes(p.x);
-          const auto curl_x = quadratic_curls(mesh_, mesh_.triangles[tx], p.x);
-          const auto curl_y = quadratic_curls(mesh_, mesh_.triangles[ty], p.y);
-          const Mat3 adjoint = p.weight * static_adjoint_kernel(g, rest);
-          for (int i = 0; i < kShapes; ++i) {
-            for (int j = 0; j < kShapes; ++j)
-              out.static_h.block<3, 3>(3 * i, 3 * j) +=
-                  p.weight * static_hypersingular_kernel(g.r, g.h, curl_x[i], curl_y[j],
-                                                         material_.shear_modulus, kappa_);
-            for (int j = 0; j < 3; ++j)
-              out.adjoint.block<3, 3>(3 * i, 3 * j) += shape[i] * p.y[j] * adjoint;
-          }
-        });
+    quadrature_.for_each_point(tx, ty, KernelPart::static_part, [&](const PairPoint& p) {
+      const SurfacePair g = geometry(tx, ty, p);
+      const auto shape = quadratic_shapes(p.x);
+      const auto curl_x = quadratic_curls(mesh_, mesh_.triangles[tx], p.x);
+      const auto curl_y = quadratic_curls(mesh_, mesh_.triangles[ty], p.y);
+      const Mat3 adjoint = p.weight * static_adjoint_kernel(g, rest);
+      for (int i = 0; i < kShapes; ++i) {
+        for (int j = 0; j < kShapes; ++j)
+          out.static_h.block<3, 3>(3 * i, 3 * j) +=
+              p.weight * static_hypersingular_kernel(g.r, g.h, curl_x[i], curl_y[j],
+                                                     material_.shear_modulus, kappa_);
+        for (int j = 0; j < 3; ++j)
+          out.adjoint.block<3, 3>(3 * i, 3 * j) += shape[i] * p.y[j] * adjoint;
+      }
+    });
   }
 
   void add_dynamic(int tx, int ty, PairMatrices& out) const {
@@ -70,24 +69,23 @@ class Pairs {
     const Eigen::Matrix<double, 3, 6> shear = 2 * mu * symmetric_products(quadrature_.normal(ty));
     const Vector6 pressure = mu * nu / (1 - nu) * symmetric_entries(Mat3::Identity());
     const Complex factor = s_ * s_ / (c2_ * c2_);
-    quadrature_.for_each_point(
-        tx, ty, KernelPart::dynamic_part, PairShare::all, [&](const PairPoint& p) {
-          const SurfacePair g = geometry(tx, ty, p);
-          const auto f = hypersingular_values(s_ * g.r / c2_, kappa_);
-          const auto shape_x = quadratic_shapes(p.x), shape_y = quadratic_shapes(p.y);
-          const Mat3c inertia = p.weight * inertia_kernel(g, f, material_.density);
-          const Mat3c adjoint = p.weight * dynamic_adjoint_kernel(g, f);
-          const Eigen::Matrix<Complex, 3, 6> strain =
-              adjoint * shear +
-              p.weight * pressure_kernel(g, f, kappa_) * pressure.transpose().cast<Complex>();
-          for (int i = 0; i < kShapes; ++i) {
-            for (int j = 0; j < kShapes; ++j)
-              out.inertia.block<3, 3>(3 * i, 3 * j) += shape_x[i] * shape_y[j] * inertia;
-            for (int j = 0; j < 3; ++j)
-              out.adjoint.block<3, 3>(3 * i, 3 * j) += shape_x[i] * p.y[j] * factor * adjoint;
-            out.strain.middleRows<3>(3 * i) += shape_x[i] * strain;
-          }
-        });
+    quadrature_.for_each_point(tx, ty, KernelPart::dynamic_part, [&](const PairPoint& p) {
+      const SurfacePair g = geometry(tx, ty, p);
+      const auto f = hypersingular_values(s_ * g.r / c2_, kappa_);
+      const auto shape_x = quadratic_shapes(p.x), shape_y = quadratic_shapes(p.y);
+      const Mat3c inertia = p.weight * inertia_kernel(g, f, material_.density);
+      const Mat3c adjoint = p.weight * dynamic_adjoint_kernel(g, f);
+      const Eigen::Matrix<Complex, 3, 6> strain =
+          adjoint * shear +
+          p.weight * pressure_kernel(g, f, kappa_) * pressure.transpose().cast<Complex>();
+      for (int i = 0; i < kShapes; ++i) {
+        for (int j = 0; j < kShapes; ++j)
+          out.inertia.block<3, 3>(3 * i, 3 * j) += shape_x[i] * shape_y[j] * inertia;
+        for (int j = 0; j < 3; ++j)
+          out.adjoint.block<3, 3>(3 * i, 3 * j) += shape_x[i] * p.y[j] * factor * adjoint;
+        out.strain.middleRows<3>(3 * i) += shape_x[i] * strain;
+      }
+    });
   }
 
   const TriangleMesh& mesh_;

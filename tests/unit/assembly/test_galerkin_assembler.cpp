@@ -138,6 +138,30 @@ TEST_CASE("loads on triangles are those of nodal tractions where these are the s
   CHECK(worst < 2e-6 * largest);
 }
 
+TEST_CASE("patches that are close are integrated by the rules of triangles, not by midpoints") {
+  const TriangleMesh nodes = centred(box(Vec3(1, 1, 1), {6, 6, 6}));
+  const double size = diameter(nodes.vertices);
+  Discretisation d = discretisation("bdf1", size, 0.3);
+  const int n = static_cast<int>(nodes.vertices.size());
+  GalerkinRows<double> rows, exact;
+  GalerkinAssembler(nodes, size, d).assemble(0, 1, MatrixForm::general, rows);
+  d.quadrature_tolerance = 1e-8;
+  GalerkinAssembler(nodes, size, d).assemble(0, 1, MatrixForm::general, exact);
+  const auto error = [n](const auto& found, const auto& expected, std::size_t size_of_entry) {
+    double difference = 0, all = 0;
+    for (std::size_t i = 0; i < 9 * size_of_entry * static_cast<std::size_t>(n); ++i) {
+      difference += (found[i] - expected[i]) * (found[i] - expected[i]);
+      all += expected[i] * expected[i];
+    }
+    return std::sqrt(difference / all);
+  };
+  const std::size_t lanes = rows.padded_lanes;
+  CHECK(error(rows.static_h, exact.static_h, 1) < 4e-5);
+  CHECK(error(rows.static_g, exact.static_g, 1) < 5e-5);
+  CHECK(error(rows.inertia, exact.inertia, lanes) < 1.8e-3);
+  CHECK(error(rows.adjoint, exact.adjoint, lanes) < 3.6e-3);
+}
+
 TEST_CASE("distant patches are summed by midpoints as well as by pairs of triangles") {
   const TriangleMesh nodes = centred(box(Vec3(10, 0.8, 0.8), {10, 1, 1}));
   const double size = diameter(nodes.vertices);
